@@ -1,0 +1,186 @@
+/* A plugin's YAML, checked. Nothing about a plugin that can be known without running it comes from
+ * anywhere else.
+ *
+ *   plugin: strength/johnson_cook      kind/name; the folder and files are called name
+ *   version: "1.0"
+ *   summary: one line
+ *   formula: |                         the formula that runs, as `gamut show` prints it
+ *   notes: |                           what a user must know (limits, what is left out)
+ *   source: [literature, ...]
+ *   parameters:                        in order
+ *     A: {symbol: A, unit: Pa, type: real, default: 90 MPa, fit: "[10, 1000] MPa",
+ *         physical: "(0, inf)", random: true, optional: false, doc: ..., source: ...}
+ *     types: real (default), integer, boolean, choice (choices: [..]), text, vector (size: 2 or
+ *     "1..3"), body (name of a body), expression (variables: [x, y, z]), table (columns: {time: s,
+ *     strain: 1}; a sequence of rows or {file: NAME.csv}), group (members: like parameters).
+ *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI unless
+ *     they carry a unit: "[a, b)", "(0, inf)".
+ *   constraints: ["T_melt > T_room"]   comparisons over real parameters
+ *   given:                             alternative sets; a scene gives one. The parameters that a set
+ *     - {set: [youngs_modulus, poissons_ratio], then: {shear_modulus: "youngs_modulus / (2 * ..)"}}
+ *     - {set: [shear_modulus]}         names in `set` and `then` are declared parameters. Parameters
+ *                                      of other sets must not be given. Derived ones need no value.
+ *   inputs: [velocity_gradient, viscous_pressure?]   fields read; `?`: zero where nobody provides it
+ *   outputs: [pressure, sound_speed]   fields written
+ *   state:                             history: fields of their own, a begin and an end value
+ *     plastic_strain: {unit: 1, components: 1, initial: 0, doc: ...}
+ *   scratch: 24                        scratch arrays for the kernel
+ *   laws: [eos, strength?]             elasticity: callees; `?`: may be absent (null pointer)
+ *   inverse: true                      strength: offers the inverse
+ *   derivatives: {of: pressure, by: [C0, S1, reference_density]}
+ *   variants: [{when: "C == 0", kernel: name, drops: [plastic_strain_rate]}]
+ *   messages: {beyond_pole: {severity: stop, text: "..."}}
+ *   tasks: [{kernel: heat, phase: after material, reads: [..], writes: [..], adds: [..]}]   effects
+ *   body_parameters:, material_parameters:   like parameters: keys that this plugin adds to every body
+ *                                      (solver) or material (effects, elasticity)
+ *   requires: [plane]                  names in somebody's `provides`
+ *   provides: [plane, points]
+ *   phases: [..]                       solver
+ *   axis: {name: time, unit: s}        solver
+ *   measures:                          what a quantity can be
+ *     pressure: {unit: Pa, at: point, formula: "-(stress_xx + stress_yy + stress_zz) / 3", doc: ..}
+ *     extent: {unit: m, at: body, arguments: {axis: {type: choice, choices: [x, y, z]}}, doc: ..}
+ *     `at: point` measures are per point (fields of outputs, or a quantity with `at:`); `at: body` and
+ *     `at: run` are scalars from the plugin's measure operation.
+ */
+#ifndef GAMUT_DESCRIPTOR_H
+#define GAMUT_DESCRIPTOR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <gamut/plugin.h>
+
+#include "error/error.h"
+#include "tree/tree.h"
+#include "unit/unit.h"
+
+enum value_type {
+  VALUE_REAL, VALUE_INTEGER, VALUE_BOOLEAN, VALUE_CHOICE, VALUE_TEXT, VALUE_VECTOR, VALUE_BODY,
+  VALUE_EXPRESSION, VALUE_TABLE, VALUE_GROUP
+};
+
+/* A range with open or closed ends, SI. */
+struct range {
+  bool stated;
+  double lower, upper;
+  bool lower_open, upper_open;
+};
+bool range_holds(const struct range *, double value);
+/* "greater than 0 and at most 0.5" with the unit, for messages. Returns buffer. */
+char *range_text(const struct range *, const char *unit, char *buffer, size_t size);
+
+struct parameter {
+  const char *name, *symbol, *unit, *doc, *source;
+  enum value_type type;
+  const struct tree *standard; /* the default as written, or null */
+  bool optional, random;
+  struct range fit, physical;
+  size_t size_min, size_max;   /* of a vector */
+  const char **choice;         /* names of a choice, variables of an expression, table columns */
+  const char **choice_unit;    /* units of table columns */
+  size_t choices;
+  struct parameter *member;    /* of a group */
+  size_t members;
+};
+
+struct given_set {
+  const char **name;  size_t names;              /* given by the scene */
+  const char **derived, **formula; size_t derivations; /* what follows: name = formula */
+};
+
+/* A field that a plugin reads or writes, or its state. */
+struct field_use { const char *name; bool optional; };
+struct state_variable {
+  const char *name, *unit, *doc; unsigned components; double initial;
+};
+struct variant { const char *when, *kernel; const char **drop; size_t drops; };
+struct message { const char *name, *text; enum gamut_severity severity; };
+struct kernel_task {
+  const char *kernel, *phase;
+  const char **read, **write, **add; size_t reads, writes, adds;
+};
+enum measure_at { MEASURE_POINT, MEASURE_BODY, MEASURE_RUN };
+struct measure {
+  const char *name, *unit, *formula, *doc; enum measure_at at;
+  struct parameter *argument; size_t arguments;
+};
+
+struct descriptor {
+  enum gamut_kind kind;
+  const char *id, *name, *version, *summary, *formula, *notes;
+  const char *file, *folder; /* absolute */
+  const char **source;                 size_t sources;
+  struct parameter *parameter;         size_t parameters;
+  const char **constraint;             size_t constraints;
+  struct given_set *given;             size_t givens;
+  struct field_use *input;             size_t inputs;
+  struct field_use *output;            size_t outputs;
+  struct state_variable *state;        size_t states;
+  size_t scratch;
+  struct field_use *law;               size_t laws; /* "eos", "strength" */
+  bool inverse;
+  const char *derivative_of; const char **derivative_by; size_t derivatives;
+  struct variant *variant;             size_t variants;
+  struct message *message;             size_t messages;
+  struct kernel_task *task;            size_t tasks;
+  struct parameter *body_parameter;    size_t body_parameters;
+  struct parameter *material_parameter; size_t material_parameters;
+  const char **require;                size_t requirements;
+  const char **provide;                size_t provisions;
+  const char **phase;                  size_t phases;
+  const char *axis, *axis_unit;
+  struct measure *measure;             size_t measures;
+  char digest[24];                     /* of the interface, see descriptor_digest */
+  struct tree *tree;                   /* owns all strings */
+};
+
+/* Reads and checks. Every fault is reported with its place, blamed as GAMUT_PLUGIN. */
+gamut_status descriptor_read(const char *file, const struct units *, struct trace *,
+                             struct descriptor **);
+void descriptor_free(struct descriptor *); /* accepts null */
+
+const char *kind_name(enum gamut_kind);
+bool kind_from_name(const char *name, enum gamut_kind *);
+const struct parameter *parameter_named(const struct parameter *, size_t count, const char *name);
+/* Index of a parameter of the descriptor, or -1. */
+int descriptor_parameter(const struct descriptor *, const char *name);
+
+/* ---- the block that a kernel of this plugin sees ---------------------------------------------- */
+
+/* What a pointer of the generated struct leads to, in declared order after count and status. */
+enum slot_kind {
+  SLOT_PARAMETER,         /* const double *: real parameter `index` (integers and booleans too) */
+  SLOT_MATERIAL_PARAMETER,/* const double *: material_parameter `index` */
+  SLOT_INPUT,             /* const double *[components] */
+  SLOT_OUTPUT,            /* double *[components] */
+  SLOT_STATE_BEGIN, SLOT_STATE_END,
+  SLOT_LAW,               /* const struct gamut_eos_law * or gamut_strength_law * */
+  SLOT_SCRATCH,           /* double *scratch[n] */
+  SLOT_INVERSE_INPUT, SLOT_INVERSE_OUTPUT, /* flow_stress_given, plastic_strain_inverse */
+  SLOT_DERIVATIVE,        /* double *: first by derivative_by[index] */
+  SLOT_SECOND_DERIVATIVE  /* double *: by derivative_by[index] and [other] (index <= other) */
+};
+struct slot {
+  enum slot_kind kind;
+  size_t index, other;
+  unsigned component, components; /* this pointer is component `component` of `components` */
+  const char *name, *unit;
+};
+/* Layout of the struct as pointers; *slots is allocated, freed by the caller. Kernels see parameters of
+ * type real, integer, boolean (0 or 1) and choice (its number). */
+size_t descriptor_layout(const struct descriptor *, struct slot **slots);
+
+/* Digest of kind, id, and the ordered names, units and components of the layout: 16 hex digits. Not of
+ * the prose, nor of defaults. Computed by descriptor_read. */
+
+/* Writes NAME.gamut.h: the struct with a comment a member, message constants, number of scratch
+ * arrays, digest, struct NAME_ops (kind operations, then variants, then tasks, then kernels in declared
+ * order). */
+void descriptor_header(const struct descriptor *, FILE *);
+/* For people: `gamut show`. */
+void descriptor_show(const struct descriptor *, FILE *);
+void descriptor_show_json(const struct descriptor *, FILE *);
+
+#endif

@@ -1,0 +1,60 @@
+/* The names of the field's fields. Plugins refer to these by name in `inputs` and `outputs`; state
+ * variables that a descriptor declares join them. */
+#ifndef GAMUT_VOCABULARY_H
+#define GAMUT_VOCABULARY_H
+
+#include <stddef.h>
+
+#include <gamut/run.h>
+
+/* X(name, where, components, unit, meaning). Symmetric tensors: xx yy zz xy yz zx. Full tensors: row by
+ * row, xx xy xz yx yy yz zx zy zz. */
+#define VOCABULARY(X)                                                                              \
+  X(position, GAMUT_AT_POINT, 3, "m", "where the point is")                                        \
+  X(velocity, GAMUT_AT_POINT, 3, "m/s", "velocity of the point")                                   \
+  X(mass, GAMUT_AT_POINT, 1, "kg", "mass of the point")                                            \
+  X(reference_volume, GAMUT_AT_POINT, 1, "m3", "volume at reference density")                      \
+  X(volume_ratio, GAMUT_AT_POINT, 1, "1", "volume over reference volume, J")                       \
+  X(velocity_gradient, GAMUT_AT_POINT, 9, "1/s",                                                   \
+    "L at the beginning of the step; the step's deformation is I + time_step L")                   \
+  X(stress, GAMUT_AT_POINT, 6, "Pa", "Cauchy stress with viscous pressure, tension positive")      \
+  X(plastic_strain, GAMUT_AT_POINT, 1, "1", "equivalent plastic strain")                           \
+  X(plastic_strain_rate, GAMUT_AT_POINT, 1, "1/s", "rate of equivalent plastic strain")            \
+  X(plastic_dissipation, GAMUT_AT_POINT, 1, "J/m3",                                                \
+    "plastic work of this step per reference volume")                                              \
+  X(temperature, GAMUT_AT_POINT, 1, "K", "temperature")                                            \
+  X(energy, GAMUT_AT_POINT, 1, "J/m3", "internal energy per reference volume")                     \
+  X(sound_speed, GAMUT_AT_POINT, 1, "m/s", "longitudinal (eos: bulk) sound speed")                 \
+  X(viscous_pressure, GAMUT_AT_POINT, 1, "Pa", "artificial viscous pressure, q")                   \
+  X(external_force, GAMUT_AT_POINT, 3, "N", "force on the point from effects")                     \
+  X(omega_squared, GAMUT_AT_POINT, 1, "1/s2",                                                      \
+    "square of the highest frequency at the point; the step is bounded by 2/omega")                \
+  X(step_factor, GAMUT_AT_POINT, 1, "1", "how much longer the next step may be than this one")     \
+  X(compression, GAMUT_AT_POINT, 1, "1", "rho/rho0 - 1, mu")                                       \
+  X(pressure, GAMUT_AT_POINT, 1, "Pa", "pressure of the eos, positive in compression")             \
+  X(pressure_slope_compression, GAMUT_AT_POINT, 1, "Pa", "dp/dmu at constant energy")              \
+  X(pressure_slope_energy, GAMUT_AT_POINT, 1, "1", "dp/de at constant compression")                \
+  X(flow_stress, GAMUT_AT_POINT, 1, "Pa", "flow stress of the strength law")                       \
+  X(flow_stress_slope_plastic_strain, GAMUT_AT_POINT, 1, "Pa", "d(flow stress)/d(plastic strain)") \
+  X(flow_stress_slope_plastic_strain_rate, GAMUT_AT_POINT, 1, "Pa s",                              \
+    "d(flow stress)/d(plastic strain rate)")                                                       \
+  X(flow_stress_slope_temperature, GAMUT_AT_POINT, 1, "Pa/K", "d(flow stress)/d(temperature)")     \
+  X(reference_density, GAMUT_AT_MATERIAL, 1, "kg/m3", "density at zero compression, rho0")         \
+  X(time, GAMUT_AT_RUN, 1, "s", "at the beginning of the step")                                    \
+  X(time_step, GAMUT_AT_RUN, 1, "s", "length of the step")                                         \
+  X(cell_size, GAMUT_AT_RUN, 1, "m", "edge of a grid cell")
+
+struct vocable {
+  const char *name;
+  enum gamut_where where;
+  unsigned components;
+  const char *unit, *meaning;
+};
+
+/* The entry of that name, or null. */
+const struct vocable *vocabulary_find(const char *name);
+const struct vocable *vocabulary_at(size_t index); /* null past the end */
+/* "xx", "x", "" for component k of a field with n components. */
+const char *component_name(unsigned components, unsigned k);
+
+#endif

@@ -1,0 +1,39 @@
+/* Estimators: moments of quantities under random parameters. An estimator never runs a solver: it is
+ * asked for the next parameter points and told the quantities that came back. */
+#ifndef GAMUT_ESTIMATOR_H
+#define GAMUT_ESTIMATOR_H
+
+#include <gamut/run.h>
+
+/* A batch of runs to make. The estimator fixes its size; decisions fall only between batches, so a
+ * study gives the same tables for any number of threads. Arrays are owned by the core. */
+struct gamut_batch {
+  size_t parameters;  /* random parameters, independent standard normal variables here */
+  size_t quantities;  /* values that come back from each run */
+  size_t capacity;    /* rows there is room for */
+  size_t rows;        /* out of ask: runs wanted; 0 ends the study */
+  double *point;      /* out of ask: rows x parameters, in units of standard deviations */
+  int *level;         /* out of ask: which list of scene overrides, 0 is the scene itself */
+  const double *value; /* into tell: rows x quantities; NaN where the run failed */
+};
+
+/* What a study is after. Owned by the core, `quantities` entries each. */
+struct gamut_moments {
+  double *mean, *variance;             /* of each quantity */
+  double *mean_error, *variance_error; /* one standard error, or the estimator's own bound */
+};
+
+#define GAMUT_ESTIMATOR_OPS(B)                                                                     \
+  /* required. `parameters` and `quantities` as in the batch; seed is the study's. */               \
+  gamut_status (*create)(struct gamut_run *, const struct gamut_values *, size_t parameters,       \
+                         size_t quantities, uint64_t seed, void **self);                           \
+  void (*destroy)(void *self);                                                                     \
+  gamut_status (*ask)(void *self, struct gamut_batch *);                                           \
+  gamut_status (*tell)(void *self, const struct gamut_batch *);                                    \
+  gamut_status (*report)(const void *self, struct gamut_moments *);                                \
+  /* required: the whole state as bytes; called with null bytes to learn the size. restore makes    \
+   * a fresh estimator go on exactly where the saved one stood. */                                  \
+  size_t (*save)(const void *self, void *bytes);                                                   \
+  gamut_status (*restore)(void *self, const void *bytes, size_t size);
+
+#endif

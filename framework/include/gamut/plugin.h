@@ -1,0 +1,138 @@
+/* The one header of a plugin author.
+ *
+ * A plugin is a folder with NAME.yaml (what it declares), NAME.c (what it computes) and
+ * NAME.test.yaml (what proves it). The C file includes NAME.gamut.h, which `gamut header` generates
+ * from the YAML and which includes this file, and ends in one registration line, e.g.
+ *
+ *   GAMUT_EOS(linear, .pressure = pressure)
+ *
+ * A plugin links to nothing of gamut: what it may ask of the core comes through the functions of
+ * <gamut/run.h>, which call a table that the core hands over. It exports one symbol.
+ */
+#ifndef GAMUT_PLUGIN_H
+#define GAMUT_PLUGIN_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <gamut/block.h>
+#include <gamut/estimator.h>
+#include <gamut/math.h>
+#include <gamut/random_field.h>
+#include <gamut/run.h>
+#include <gamut/solver.h>
+#include <gamut/status.h>
+
+/* The number of the binary interface. It grows when a plugin built before must be rebuilt. */
+#define GAMUT_ABI 1
+
+/* X(kind in C, name in YAML) */
+#define GAMUT_KIND_LIST(X)                                                                         \
+  X(GAMUT_KIND_EOS, "eos")                                                                         \
+  X(GAMUT_KIND_STRENGTH, "strength")                                                               \
+  X(GAMUT_KIND_ELASTICITY, "elasticity")                                                           \
+  X(GAMUT_KIND_EFFECT, "effect")                                                                   \
+  X(GAMUT_KIND_RANDOM_FIELD, "random_field")                                                       \
+  X(GAMUT_KIND_ESTIMATOR, "estimator")                                                             \
+  X(GAMUT_KIND_SOLVER, "solver")
+
+enum gamut_kind {
+#define GAMUT_KIND_ENTRY(kind, name) kind,
+  GAMUT_KIND_LIST(GAMUT_KIND_ENTRY)
+#undef GAMUT_KIND_ENTRY
+  GAMUT_KINDS
+};
+
+/* What a shared object exports, one an instruction set. All members are constants of the plugin. */
+struct gamut_plugin {
+  size_t size;        /* sizeof(struct gamut_plugin) where the plugin was built */
+  uint32_t abi;       /* GAMUT_ABI where it was built */
+  uint32_t kind;      /* enum gamut_kind */
+  const char *name;   /* "linear" */
+  const char *digest; /* of the interface it was built with; a stale one is refused */
+  size_t block_size;  /* sizeof(struct NAME) */
+  const void *ops;    /* struct NAME_ops; its first member is its size */
+};
+
+/* Operations of each kind, as members of the generated struct NAME_ops (B is `struct NAME`). After
+ * them the generated header adds one kernel per entry of `variants` and of `tasks`, by name.
+ * A null optional operation means the default in its comment.
+ *
+ * eos
+ *   pressure     required. Reads compression, energy, reference_density; writes pressure,
+ *                sound_speed and whatever slopes the descriptor declares.
+ *   derivatives  optional. Fills NAME_by_P and NAME_by_P_Q by GAMUT_PUT (first and second derivatives
+ *                of the output named under `derivatives`). Default: Richardson differences by the core.
+ * strength
+ *   flow_stress  required. Reads plastic_strain, plastic_strain_rate, temperature; writes flow_stress
+ *                and the declared slopes.
+ *   inverse      optional. The plastic strain at a given flow stress: reads the array flow_stress_given,
+ *                writes plastic_strain_inverse (members added where the descriptor says `inverse: true`).
+ *   derivatives  as for eos.
+ * elasticity
+ *   stress       required. From the state at the beginning of a step (NAME_begin, constant), the
+ *                velocity gradient and the laws bound into the block to the state at its end.
+ *   start        optional. The stress that belongs to the initial energy and compression; writes the
+ *                end state. Default: the end state equals the beginning.
+ * effect
+ *   create       optional. Reads its values, asks the solver for planes. On failure returns a status
+ *                after gamut_fail; *self then is not destroyed.
+ *   destroy      optional. Accepts null.
+ *   decline      optional. Returns true and writes the reason where the effect has nothing to do in
+ *                this scene ("C = 0"); it then costs nothing.
+ *   measure      optional, required if the descriptor declares measures.
+ *   Its kernels are the `tasks` of the descriptor.
+ * random_field, estimator, solver: see their headers.
+ */
+#define GAMUT_EOS_OPS(B)                                                                           \
+  void (*pressure)(const B *);                                                                     \
+  void (*derivatives)(const B *);
+#define GAMUT_STRENGTH_OPS(B)                                                                      \
+  void (*flow_stress)(const B *);                                                                  \
+  void (*inverse)(const B *);                                                                      \
+  void (*derivatives)(const B *);
+#define GAMUT_ELASTICITY_OPS(B)                                                                    \
+  void (*stress)(const B *);                                                                       \
+  void (*start)(const B *);
+#define GAMUT_EFFECT_OPS(B)                                                                        \
+  gamut_status (*create)(struct gamut_run *, const struct gamut_values *, void **self);            \
+  void (*destroy)(void *self);                                                                     \
+  bool (*decline)(void *self, const struct gamut_values *, char *why, size_t size);                \
+  gamut_status (*measure)(void *self, const char *name, const struct gamut_values *arguments,      \
+                          double *value);
+
+/* Exports NAME_LTX_gamut_plugin. The build may define GAMUT_LEVEL (e.g. _v3, _v4) to put several
+ * builds of the same source, one an instruction-set level, into one shared object. */
+#ifndef GAMUT_LEVEL
+#define GAMUT_LEVEL
+#endif
+#if defined(__GNUC__)
+#define GAMUT_EXPORT __attribute__((visibility("default")))
+#else
+#define GAMUT_EXPORT
+#endif
+#define GAMUT_JOIN_(a, b, c) a##b##c
+#define GAMUT_JOIN(a, b, c) GAMUT_JOIN_(a, b, c)
+#define GAMUT_PLUGIN_(kind_, id, ...)                                                              \
+  static const struct id##_ops id##_operations = {.size = sizeof(struct id##_ops), __VA_ARGS__};   \
+  extern GAMUT_EXPORT const struct gamut_plugin GAMUT_JOIN(id, _LTX_gamut_plugin, GAMUT_LEVEL);    \
+  GAMUT_EXPORT const struct gamut_plugin GAMUT_JOIN(id, _LTX_gamut_plugin, GAMUT_LEVEL) = {        \
+      .size = sizeof(struct gamut_plugin),                                                         \
+      .abi = GAMUT_ABI,                                                                            \
+      .kind = (kind_),                                                                             \
+      .name = #id,                                                                                 \
+      .digest = id##_digest,                                                                       \
+      .block_size = sizeof(struct id),                                                             \
+      .ops = &id##_operations};
+
+#define GAMUT_EOS(id, ...) GAMUT_PLUGIN_(GAMUT_KIND_EOS, id, __VA_ARGS__)
+#define GAMUT_STRENGTH(id, ...) GAMUT_PLUGIN_(GAMUT_KIND_STRENGTH, id, __VA_ARGS__)
+#define GAMUT_ELASTICITY(id, ...) GAMUT_PLUGIN_(GAMUT_KIND_ELASTICITY, id, __VA_ARGS__)
+#define GAMUT_EFFECT(id, ...) GAMUT_PLUGIN_(GAMUT_KIND_EFFECT, id, __VA_ARGS__)
+#define GAMUT_RANDOM_FIELD(id, ...) GAMUT_PLUGIN_(GAMUT_KIND_RANDOM_FIELD, id, __VA_ARGS__)
+#define GAMUT_ESTIMATOR(id, ...) GAMUT_PLUGIN_(GAMUT_KIND_ESTIMATOR, id, __VA_ARGS__)
+#define GAMUT_SOLVER(id, ...) GAMUT_PLUGIN_(GAMUT_KIND_SOLVER, id, __VA_ARGS__)
+
+#endif

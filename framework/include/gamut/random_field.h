@@ -1,0 +1,22 @@
+/* Random fields over space: standard (mean 0, variance 1) values at given points. */
+#ifndef GAMUT_RANDOM_FIELD_H
+#define GAMUT_RANDOM_FIELD_H
+
+#include <gamut/run.h>
+
+/* Counter-based stream of standard normal numbers: the same (seed, realisation, name, index) gives
+ * the same number on any machine and thread, in any order. */
+struct gamut_stream {
+  uint64_t seed, realisation, name; /* name: hash of the parameter's scene path */
+  double (*normal)(const struct gamut_stream *, uint64_t index);
+};
+
+#define GAMUT_RANDOM_FIELD_OPS(B)                                                                  \
+  gamut_status (*create)(struct gamut_run *, const struct gamut_values *, void **self);            \
+  void (*destroy)(void *self);                                                                     \
+  /* required. Writes one value a point. position has three arrays of `count` (metres), id one.     \
+   * The same point must get the same value whatever other points are asked for with it. */         \
+  gamut_status (*sample)(const void *self, const struct gamut_stream *, size_t count,              \
+                         const double *const position[3], const int64_t *id, double *value);
+
+#endif

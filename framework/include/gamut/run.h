@@ -1,0 +1,280 @@
+/* What a solver, effect, estimator or random field may ask of the core.
+ *
+ * Every function here is an inline call through the table `gamut_host` that the core hands over, so a
+ * plugin has no symbol to resolve. All are called from one thread, before the first step or between
+ * steps, unless a comment says otherwise. Objects belong to the run; a plugin frees none of them.
+ */
+#ifndef GAMUT_RUN_H
+#define GAMUT_RUN_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <gamut/status.h>
+
+struct gamut_run;    /* one run of one scene */
+struct gamut_values; /* the checked values of one plugin's parameters, or of a measure's arguments */
+struct gamut_body;   /* a body of the scene */
+
+/* ---- points ---------------------------------------------------------------------------------- */
+
+enum {
+  GAMUT_LANES = 8,        /* blocks and chunks are padded to a multiple of this many points */
+  GAMUT_CHUNK_MAX = 1024, /* the most points a chunk can hold */
+};
+
+/* The points of one body and material. Read-only for plugins; the core keeps it current. Points are
+ * cut into blocks: block b holds slots first[b] to first[b+1]-1, a multiple of GAMUT_LANES. Slots at
+ * the end of a block that hold no point are padding: copies of the block's last point with zero mass
+ * and id -1. */
+struct gamut_set {
+  const char *body;    /* name of its body, borrowed from the scene */
+  size_t index;        /* number of the set, in the order of the scene's bodies */
+  size_t points;       /* real points */
+  size_t slots;        /* points and padding */
+  size_t blocks;       /* blocks; 0 until gamut_arrange */
+  const size_t *first; /* blocks + 1 entries */
+  const int64_t *id;   /* one a slot: the point's id for its whole life; -1 for padding */
+};
+
+/* Where a field lives. */
+enum gamut_where {
+  GAMUT_AT_POINT,    /* one value a point of every set */
+  GAMUT_AT_MATERIAL, /* one value a material, seen by kernels as an array */
+  GAMUT_AT_RUN,      /* one value a run (time_step), seen by kernels as an array */
+  GAMUT_AT_SOLVER    /* kept by the solver (nodes, bonds, pairs); the core knows its name only */
+};
+
+/* A handle to a field: components first to first + components - 1 of a chunk's tables. */
+struct gamut_field {
+  uint32_t first;
+  uint32_t components;
+};
+
+/* A run of points of one block, as a point task gets it. The pointers in `begin` and `end` lead to
+ * `count` values of a field's component at the beginning and at the end of the step. For a field
+ * without history they are the same. Padding points are part of the chunk. A task may use them only
+ * during its call. */
+struct gamut_chunk {
+  const struct gamut_set *set;
+  size_t block;         /* number of the block within its set */
+  size_t serial;        /* number of the block over all sets, in the order of summation */
+  size_t slot;          /* first slot of the chunk */
+  size_t count;         /* points, a multiple of GAMUT_LANES */
+  int thread;           /* 0 to threads - 1 */
+  double *const *begin; /* one pointer a component, by gamut_field.first */
+  double *const *end;
+};
+
+static inline double *gamut_begin(const struct gamut_chunk *c, struct gamut_field f, unsigned k)
+{
+  return c->begin[f.first + k];
+}
+static inline double *gamut_end(const struct gamut_chunk *c, struct gamut_field f, unsigned k)
+{
+  return c->end[f.first + k];
+}
+
+/* ---- tasks ----------------------------------------------------------------------------------- */
+
+enum gamut_access {
+  GAMUT_READ_BEGIN, /* the value at the beginning of the step (or the only one) */
+  GAMUT_READ,       /* the value at the end, after every task of this step that writes it */
+  GAMUT_WRITE,      /* sets it */
+  GAMUT_ADD,        /* adds to it; the core clears it before the first task that adds */
+  GAMUT_READ_LAST   /* the value that the step before left (a stored field without history) */
+};
+struct gamut_use {
+  const char *field;
+  enum gamut_access access;
+};
+
+enum gamut_extent {
+  GAMUT_PER_CHUNK,    /* called for every chunk of points, by any thread, in any order of blocks */
+  GAMUT_OPEN_BLOCK,   /* called once a block before its first chunk (chunk.count is 0) */
+  GAMUT_CLOSE_BLOCK,  /* called once a block after its last chunk (chunk.count is 0) */
+  GAMUT_ONCE          /* called once a step by one thread, with a null chunk; may use OpenMP itself */
+};
+
+/* One piece of work of a step. The struct and what it points to is copied.
+ * `run` returns GAMUT_OK or a status after gamut_fail; several threads may be in it at once. */
+struct gamut_task {
+  const char *name;  /* for people: "gather" */
+  const char *phase; /* one of the phases that the solver's descriptor lists, in order */
+  enum gamut_extent extent;
+  const struct gamut_use *uses;
+  size_t use_count;
+  bool essential; /* true: always live. false: live if a live task reads what it writes */
+  gamut_status (*run)(void *self, const struct gamut_chunk *chunk);
+  void *self; /* borrowed */
+};
+
+/* ---- planes: a service of solvers that effects ask for --------------------------------------- */
+
+/* What a plane does with one component of the velocity (component 0 is along the normal, 1 and 2 are
+ * tangential). */
+enum gamut_plane_rule { GAMUT_PLANE_FREE, GAMUT_PLANE_MIRROR, GAMUT_PLANE_PRESCRIBED };
+
+struct gamut_plane {
+  double point[3];
+  double normal[3];    /* unit, pointing to where matter may be */
+  enum gamut_plane_rule normal_rule;
+  enum gamut_plane_rule tangential_rule;
+  double velocity[3];  /* of the plane, in space; the prescribed one */
+  bool unilateral;     /* true: matter may leave the plane (a wall) */
+  double friction;     /* Coulomb's coefficient, where unilateral */
+};
+
+/* What a plane did, summed over the step just taken. Written by the solver, in a fixed order. */
+struct gamut_reaction {
+  double force[3]; /* on the plane by the matter, averaged over the step, N (per metre or radian as
+                      the geometry has it) */
+  double work;     /* done by the plane on the matter since the start, J */
+  double area;     /* in contact, m2 */
+};
+
+/* ---- ledger ---------------------------------------------------------------------------------- */
+
+/* An account balances: sum(stored now) - sum(stored at start) = sum(supplied) - sum(lost). The core
+ * reports each entry and the residual; a residual beyond 1e-10 of the account's scale is a fault of
+ * the bookkeeping, stored energy grown beyond what was supplied is an instability (exit 5). */
+enum gamut_ledger_role { GAMUT_STORED, GAMUT_SUPPLIED, GAMUT_LOST };
+
+/* ---- the table ------------------------------------------------------------------------------- */
+
+struct gamut_host {
+  size_t size; /* sizeof(struct gamut_host) of the core; members are only ever added at the end */
+
+  /* Records an error for people and returns `status`. Thread-safe. */
+  gamut_status (*fail)(struct gamut_run *, gamut_status status, const char *format, ...);
+  /* As fail, naming the place in the scene of the value at `path` (dotted). */
+  gamut_status (*fail_at)(struct gamut_run *, const struct gamut_values *, const char *path,
+                          const char *expected, const char *format, ...);
+  /* Records a warning: printed, and kept in the results. */
+  void (*warn)(struct gamut_run *, const char *format, ...);
+
+  /* Values by dotted path ("transfer.pic"), SI. The path must be declared in the descriptor with
+   * that type; asking for another is a fault of the plugin and ends the program. Borrowed. */
+  bool (*given)(const struct gamut_values *, const char *path); /* in the scene, not by default */
+  double (*real)(const struct gamut_values *, const char *path);
+  long (*integer)(const struct gamut_values *, const char *path);
+  bool (*boolean)(const struct gamut_values *, const char *path);
+  const char *(*text)(const struct gamut_values *, const char *path); /* text, choice, body */
+  const double *(*vector)(const struct gamut_values *, const char *path, size_t *count);
+  /* A table parameter: `rows` rows of as many columns as were declared, row by row. */
+  const double *(*table)(const struct gamut_values *, const char *path, size_t *rows);
+
+  /* Bodies, in the order of the scene. */
+  size_t (*bodies)(const struct gamut_run *);
+  const struct gamut_body *(*body)(const struct gamut_run *, size_t index);
+  const char *(*body_name)(const struct gamut_body *);
+  /* The solver's own parameters of a body (`body_parameters` in its descriptor). */
+  const struct gamut_values *(*body_values)(const struct gamut_body *);
+  /* Box around the body's shape; false if the body has no shape. */
+  bool (*body_bounds)(const struct gamut_body *, double lower[3], double upper[3]);
+  bool (*body_contains)(const struct gamut_body *, const double x[3]);
+  /* Initial velocity at x, m/s. */
+  void (*body_velocity)(const struct gamut_body *, const double x[3], double v[3]);
+  double (*body_density)(const struct gamut_body *); /* reference density, kg/m3 */
+
+  /* Makes the set of a body with room for `points` points (padding is added by gamut_arrange).
+   * Called in create, once a body; the arrays exist after the core has planned the run. */
+  gamut_status (*points)(struct gamut_run *, const struct gamut_body *, size_t points,
+                         struct gamut_set **set);
+  /* Handle of a field by its name in the vocabulary or in a loaded descriptor. */
+  gamut_status (*field)(struct gamut_run *, const char *name, struct gamut_field *field);
+  /* A field's stored array of a set, by component; null where this scene does not store it. */
+  double *(*stored)(const struct gamut_set *, struct gamut_field, unsigned component);
+  /* Rearranges all stored fields: new slot s takes what was in slot source[s]; a source with its top
+   * bit set is padding (a copy with zero mass). `first` holds blocks + 1 slot numbers. Both copied. */
+  gamut_status (*arrange)(struct gamut_run *, struct gamut_set *, const uint32_t *source,
+                          size_t slots, const size_t *first, size_t blocks);
+  /* Fills the state of the set's points at t = 0: material parameters, temperature, energy, and the
+   * stress that belongs to them. After the solver has set positions and masses. */
+  gamut_status (*start_material)(struct gamut_run *, struct gamut_set *);
+  /* Updates the material of a chunk: state at the end from the state at the beginning and the fields
+   * written so far. Repeatable. Any thread. For solvers that iterate on it; in others the core's own
+   * material task does it. */
+  gamut_status (*update_material)(struct gamut_run *, const struct gamut_chunk *);
+  /* Registers a task. In create only. */
+  gamut_status (*task)(struct gamut_run *, const struct gamut_task *);
+  /* Sets a GAMUT_AT_RUN field (cell_size, or time_step by the core itself). */
+  void (*set_uniform)(struct gamut_run *, struct gamut_field, double value);
+
+  /* Memory that counts: 64-byte aligned, zeroed, shown by `explain` under `label`; null and an error
+   * recorded when there is none. Never in a step, but where a grid must grow. */
+  void *(*allocate)(struct gamut_run *, const char *label, size_t bytes);
+  void (*release)(struct gamut_run *, void *memory);
+
+  /* Asks the run's solver for a plane. The reaction is owned by the solver, current after each step. */
+  gamut_status (*plane)(struct gamut_run *, const struct gamut_plane *,
+                        const struct gamut_reaction **reaction);
+
+  /* Opens a line of the ledger ("energy", "kinetic", "J"); *value is then kept current by the plugin,
+   * after every step. Stored lines are compared with their value after start. */
+  gamut_status (*ledger)(struct gamut_run *, const char *account, const char *name, const char *unit,
+                         enum gamut_ledger_role role, double **value);
+
+  double (*time)(const struct gamut_run *);      /* at the beginning of the step */
+  double (*time_step)(const struct gamut_run *); /* of the step under way */
+  uint64_t (*step)(const struct gamut_run *);
+  int (*threads)(const struct gamut_run *);
+  size_t (*chunk)(const struct gamut_run *); /* points a chunk, a multiple of GAMUT_LANES */
+};
+
+/* Every run begins with its host; the rest is the core's. */
+struct gamut_run_head {
+  const struct gamut_host *host;
+};
+#define GAMUT_HOST(run) (((const struct gamut_run_head *)(const void *)(run))->host)
+/* Values and bodies begin with their host as well. */
+
+#define gamut_fail(run, ...) (GAMUT_HOST(run)->fail((run), __VA_ARGS__))
+#define gamut_fail_at(run, ...) (GAMUT_HOST(run)->fail_at((run), __VA_ARGS__))
+#define gamut_warn(run, ...) (GAMUT_HOST(run)->warn((run), __VA_ARGS__))
+
+static inline bool gamut_given(const struct gamut_values *v, const char *path)
+{
+  return GAMUT_HOST(v)->given(v, path);
+}
+static inline double gamut_real(const struct gamut_values *v, const char *path)
+{
+  return GAMUT_HOST(v)->real(v, path);
+}
+static inline long gamut_integer(const struct gamut_values *v, const char *path)
+{
+  return GAMUT_HOST(v)->integer(v, path);
+}
+static inline bool gamut_boolean(const struct gamut_values *v, const char *path)
+{
+  return GAMUT_HOST(v)->boolean(v, path);
+}
+static inline const char *gamut_text(const struct gamut_values *v, const char *path)
+{
+  return GAMUT_HOST(v)->text(v, path);
+}
+static inline const double *gamut_vector(const struct gamut_values *v, const char *path,
+                                         size_t *count)
+{
+  return GAMUT_HOST(v)->vector(v, path, count);
+}
+static inline const double *gamut_table(const struct gamut_values *v, const char *path,
+                                        size_t *rows)
+{
+  return GAMUT_HOST(v)->table(v, path, rows);
+}
+
+/* The rest is called as GAMUT_HOST(run)->NAME(run, ...); short names for what solvers use most: */
+#define gamut_bodies(run) (GAMUT_HOST(run)->bodies(run))
+#define gamut_body_at(run, i) (GAMUT_HOST(run)->body((run), (i)))
+#define gamut_points(run, body, n, set) (GAMUT_HOST(run)->points((run), (body), (n), (set)))
+#define gamut_field_named(run, name, field) (GAMUT_HOST(run)->field((run), (name), (field)))
+#define gamut_add_task(run, task) (GAMUT_HOST(run)->task((run), (task)))
+#define gamut_allocate(run, label, bytes) (GAMUT_HOST(run)->allocate((run), (label), (bytes)))
+#define gamut_release(run, memory) (GAMUT_HOST(run)->release((run), (memory)))
+#define gamut_time(run) (GAMUT_HOST(run)->time(run))
+#define gamut_time_step(run) (GAMUT_HOST(run)->time_step(run))
+#define gamut_threads(run) (GAMUT_HOST(run)->threads(run))
+
+#endif

@@ -1,0 +1,48 @@
+/* Finds descriptors, opens shared objects. Discovery reads YAML only; a shared object is opened when a
+ * plan needs it, and stays until the program ends. */
+#ifndef GAMUT_REGISTRY_H
+#define GAMUT_REGISTRY_H
+
+#include <gamut/plugin.h>
+
+#include "descriptor/descriptor.h"
+#include "error/error.h"
+#include "unit/unit.h"
+
+struct registry;
+
+/* Where plugins are looked for, in order: --plugin-path, GAMUT_PLUGIN_PATH (ignored when the program
+ * is privileged), $XDG_DATA_HOME/gamut/plugins (off with user_plugins false), the plugins beside the
+ * build tree's command when it runs in place, then the installed folder. Only absolute folders that
+ * belong to the user or root and that nobody else may write; others are skipped with a warning. The
+ * first of two plugins with one id wins; the shadowed one is noted. */
+struct registry_options { const char *plugin_path; bool user_plugins; };
+
+gamut_status registry_new(const struct registry_options *, const struct units *, struct trace *,
+                          struct registry **);
+void registry_free(struct registry *);
+
+size_t registry_count(const struct registry *);
+const struct descriptor *registry_at(const struct registry *, size_t index); /* sorted by id */
+/* By "kind/name"; null if not installed. */
+const struct descriptor *registry_find(const struct registry *, const char *id);
+/* By kind and name. On failure records GAMUT_SCENE at `place`: suggests the nearest of that kind, or
+ * says that NAME is a plugin of another kind. */
+const struct descriptor *registry_expect(const struct registry *, enum gamut_kind, const char *name,
+                                         const struct place *, const char *path, struct trace *);
+/* Adds one plugin from its YAML file, or from a folder NAME with NAME.yaml (`gamut verify ./mine`). */
+gamut_status registry_add(struct registry *, const char *path, struct trace *,
+                          const struct descriptor **);
+
+/* Opens the plugin's shared object (once) and checks it: symbol, sizes, ABI, kind, name, digest,
+ * block size, floating-point flags unchanged by loading. Picks the best instruction-set level that this
+ * processor has. Refused with GAMUT_PLUGIN and the real reason, naming the file. Not thread-safe. */
+gamut_status registry_open(struct registry *, const struct descriptor *, struct trace *,
+                           const struct gamut_plugin **);
+/* Instruction-set level that was picked ("x86-64-v4", "baseline"); null if not opened. */
+const char *registry_level(const struct registry *, const struct descriptor *);
+bool registry_is_open(const struct registry *, const struct descriptor *);
+/* Prints where was looked, what was skipped and why, what is shadowed. */
+void registry_paths(const struct registry *, FILE *);
+
+#endif
