@@ -1,0 +1,92 @@
+/* Arrays over points: which fields there are, which are stored, sets and their chunks. */
+#ifndef GAMUT_FIELD_ROOM_H
+#define GAMUT_FIELD_ROOM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <gamut/run.h>
+
+#include "error/error.h"
+
+/* A field known in a run. Components are numbered through: component k of the field is number
+ * handle.first + k, the index into a chunk's begin and end tables. */
+struct field {
+  const char *name, *unit, *meaning; /* borrowed from vocabulary or descriptor */
+  enum gamut_where where;
+  struct gamut_field handle;
+  double initial;
+  bool used;      /* some live task or output touches it */
+  bool history;   /* keeps a begin and an end value */
+  bool stored;    /* has arrays; otherwise it lives in a thread's scratch during a sweep */
+  bool cleared;   /* cleared at the start of each chunk (somebody adds) */
+};
+
+/* All fields of a run. */
+struct fields;
+struct fields *fields_new(void);
+void fields_free(struct fields *);
+/* Adds a field, or finds it; null and a message if the name stands for something else. */
+struct field *fields_add(struct fields *, const char *name, enum gamut_where, unsigned components,
+                         const char *unit, const char *meaning, struct trace *);
+struct field *fields_find(const struct fields *, const char *name);
+size_t fields_count(const struct fields *);
+struct field *fields_at(const struct fields *, size_t index);
+size_t fields_components(const struct fields *);
+/* The field of a component number. */
+struct field *fields_of_component(const struct fields *, size_t component);
+/* "velocity_y" or "stress_xx" or "pressure": field and component; null if there is none. */
+struct field *fields_component(const struct fields *, const char *name, unsigned *component);
+
+/* Memory that counts. Every array of a run comes from here, so `explain` tells what is allocated. */
+struct arena;
+struct arena *arena_new(void);
+void arena_free(struct arena *); /* and everything in it */
+void *arena_take(struct arena *, const char *label, size_t bytes); /* zeroed, 64-byte aligned */
+void arena_give(struct arena *, void *);
+size_t arena_bytes(const struct arena *);  /* now */
+size_t arena_peak(const struct arena *);
+/* Sum of what is now held under labels, in order of first use; false past the end. */
+bool arena_label(const struct arena *, size_t index, const char **label, size_t *bytes);
+
+/* A set of points with its stored arrays. The public part comes first. */
+struct point_set {
+  struct gamut_set open;
+  struct arena *arena;
+  const struct fields *fields;
+  size_t capacity;
+  int64_t *id;
+  size_t *first;
+  size_t blocks_capacity;
+  double **array;     /* one a component: stored array or null */
+  double *spare;      /* for arrange */
+  int64_t *spare_id;
+  size_t material;
+};
+struct point_set *set_new(struct arena *, const char *body, size_t index, size_t material,
+                          size_t points);
+void set_free(struct point_set *);
+/* Allocates the stored fields with their initial values; every component's array starts at another
+ * offset within a page so that equal addresses do not alias in cache. */
+gamut_status set_allocate(struct point_set *, const struct fields *, struct trace *);
+/* gamut_host.arrange */
+gamut_status set_arrange(struct point_set *, const uint32_t *source, size_t slots,
+                         const size_t *first, size_t blocks, struct trace *);
+double *set_stored(const struct point_set *, struct gamut_field, unsigned component);
+/* Slot that holds the point `id`, or SIZE_MAX. */
+size_t set_find(const struct point_set *, int64_t id);
+
+/* The scratch and pointer tables of one thread. */
+struct lane_scratch;
+struct lane_scratch *scratch_new(struct arena *, const struct fields *, size_t chunk);
+/* Points a chunk's tables at slots first .. first + count - 1 of the set: stored fields at their
+ * arrays; history fields' end at scratch; others at scratch; clears what is added to. */
+void scratch_bind(struct lane_scratch *, const struct point_set *, size_t slot, size_t count,
+                  struct gamut_chunk *chunk);
+/* Copies end values of history fields over their beginnings. */
+void scratch_commit(struct lane_scratch *, const struct point_set *, const struct gamut_chunk *);
+/* Bytes of one thread's scratch. */
+size_t scratch_bytes(const struct fields *, size_t chunk);
+
+#endif

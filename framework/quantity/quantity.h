@@ -1,0 +1,29 @@
+/* Quantities: scalars and histories that a scene wants to know. */
+#ifndef GAMUT_QUANTITY_ROOM_H
+#define GAMUT_QUANTITY_ROOM_H
+
+#include <stddef.h>
+
+#include "error/error.h"
+#include "scene/scene.h"
+
+/* A recorded history. Times never change the step: samples lie at multiples of `every` (and at 0 and
+ * the end), interpolated linearly between the steps around them. */
+struct history {
+  const struct quantity *quantity;
+  const char *unit;              /* of the measure */
+  double every;
+  double *time, *value; size_t count, capacity;
+  double last_time, last_value; bool has_last;
+};
+struct history *history_new(const struct quantity *, double end);
+void history_free(struct history *);
+/* Tells the value now; called at the start and after every step, in order of time. No allocation. */
+void history_tell(struct history *, double time, double value, bool final);
+
+/* The value of a reduction over a history, with its unit (the measure's, s, or unit/s). False with a
+ * reason when it has none (level never crossed, empty window). */
+bool reduction_value(const struct reduction *, const struct history *, double *value, char *unit,
+                     size_t unit_size, char *why, size_t size);
+
+#endif

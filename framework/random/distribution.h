@@ -1,0 +1,28 @@
+/* Distributions of random parameters (GSL). */
+#ifndef GAMUT_DISTRIBUTION_H
+#define GAMUT_DISTRIBUTION_H
+
+#include <stdbool.h>
+
+enum distribution_kind {
+  DISTRIBUTION_NORMAL, DISTRIBUTION_LOGNORMAL, DISTRIBUTION_UNIFORM, DISTRIBUTION_WEIBULL,
+  DISTRIBUTION_GAMMA, DISTRIBUTION_BETA, DISTRIBUTION_TRIANGULAR
+};
+#define DISTRIBUTION_NAMES {"normal", "lognormal", "uniform", "weibull", "gamma", "beta", "triangular"}
+
+/* A random parameter as the scene states it, SI. `mean` and `deviation` are those of the untruncated
+ * distribution; lower and upper the ends of a uniform, beta or triangular one (mode = the mean's
+ * complement for triangular is derived), and of the truncation. */
+struct distribution {
+  enum distribution_kind kind;
+  double mean, deviation;
+  double lower, upper; /* -inf, inf where open */
+  bool truncated;
+};
+
+/* Quantile at probability u in (0, 1). */
+double distribution_quantile(const struct distribution *, double u);
+/* Probability below x. */
+double distribution_below(const struct distribution *, double x);
+
+#endif

@@ -1,0 +1,56 @@
+/* One run of one scene: makes the instances, plans, marches, records. */
+#ifndef GAMUT_RUN_ROOM_H
+#define GAMUT_RUN_ROOM_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "error/error.h"
+#include "field/field.h"
+#include "quantity/quantity.h"
+#include "registry/registry.h"
+#include "scene/scene.h"
+#include "schedule/schedule.h"
+#include "store/store.h"
+
+struct run_options {
+  int threads;                   /* 0: what OpenMP says */
+  struct store *store;           /* null: nothing written */
+  /* Called about ten times a second on a terminal and at every tenth of the run elsewhere; null: silent. */
+  void (*progress)(void *, double done, double time, uint64_t step, double rate);
+  void *progress_self;
+};
+
+struct gamut_run;
+/* Makes everything and plans; runs nothing. */
+gamut_status run_new(struct scene *, struct registry *, const struct run_options *, struct trace *,
+                     struct gamut_run **);
+void run_free(struct gamut_run *);
+/* From start to end of the axis. On a failure the last state is written as a frame where a store is
+ * open. */
+gamut_status run_march(struct gamut_run *, struct trace *);
+
+/* What came out. Owned by the run. */
+struct run_cost {
+  uint64_t points, steps; double wall, cpu; size_t bytes, peak; double bytes_per_point;
+};
+const struct schedule *run_schedule(const struct gamut_run *);
+const struct fields *run_fields(const struct gamut_run *);
+const struct arena *run_arena(const struct gamut_run *);
+struct run_cost run_cost_of(const struct gamut_run *);
+struct history *const *run_histories(const struct gamut_run *, size_t *count);
+double run_time(const struct gamut_run *);
+/* summary.json of architecture.md section 7, as text to be freed. */
+char *run_summary(const struct gamut_run *, gamut_status, const struct registry *);
+/* `gamut explain`: for people, or JSON. Needs run_new only. */
+void run_explain(struct gamut_run *, FILE *);
+char *run_explain_json(struct gamut_run *);
+
+struct ledger_line {
+  char *account, *name, *unit; enum gamut_ledger_role role; double value, start;
+};
+const struct ledger_line *run_ledger(const struct gamut_run *, size_t *count);
+/* Residual of an account now, and its scale (the largest of its parts). */
+double run_ledger_residual(const struct gamut_run *, const char *account, double *scale);
+
+#endif

@@ -1,0 +1,57 @@
+/* Tasks, the graph, what is live. The scheduler keeps the tasks whose results somebody needs, decides
+ * which fields are stored, orders the tasks and joins neighbours that work on points into sweeps. */
+#ifndef GAMUT_SCHEDULE_H
+#define GAMUT_SCHEDULE_H
+
+#include <gamut/run.h>
+
+#include "error/error.h"
+#include "field/field.h"
+
+struct task {
+  char *name, *owner;         /* owner: "solver", "material copper", "effect heat" */
+  size_t phase;
+  enum gamut_extent extent;
+  struct use { struct field *field; enum gamut_access access; } *use;
+  size_t uses;
+  bool essential, live;
+  char *why;                  /* why it is live or not, for explain */
+  gamut_status (*run)(void *self, const struct gamut_chunk *);
+  void *self;
+  size_t only_set;            /* SIZE_MAX: every set; else the set's index (material tasks) */
+  bool *on_set;               /* or null; one a set: whether the task works on it (effects) */
+};
+
+/* Tasks that run one after the other on a block while it is in cache; or a single GAMUT_ONCE task. */
+struct sweep {
+  bool once;
+  struct task **open, **chunk, **close;
+  size_t opens, chunks, closes;
+};
+
+struct schedule;
+struct schedule *schedule_new(const char *const *phase, size_t phases);
+void schedule_free(struct schedule *);
+gamut_status schedule_add(struct schedule *, const char *owner, const struct gamut_task *,
+                          struct fields *, size_t only_set, const bool *on_set, struct trace *);
+/* Records an effect (or task) that is off, with the reason, for explain. */
+void schedule_decline(struct schedule *, const char *owner, const char *why);
+/* Somebody outside the tasks reads this field between steps (output, quantity, checkpoint). */
+void schedule_want(struct schedule *, struct field *, const char *why);
+/* Works the plan out. Errors: no provider for a field that is read, unknown phase, a cycle (named). */
+gamut_status schedule_plan(struct schedule *, struct fields *, struct trace *);
+
+size_t schedule_tasks(const struct schedule *);
+const struct task *schedule_task(const struct schedule *, size_t index); /* in order, then the dead */
+size_t schedule_sweeps(const struct schedule *);
+const struct sweep *schedule_sweep(const struct schedule *, size_t index);
+size_t schedule_declined(const struct schedule *);
+void schedule_declined_at(const struct schedule *, size_t index, const char **owner,
+                          const char **why);
+
+/* Runs one step: every sweep in order, sets and blocks in parallel, bits independent of the number of
+ * threads. Returns the failure of the lowest block. */
+gamut_status schedule_step(struct schedule *, struct point_set *const *set, size_t sets,
+                           struct lane_scratch *const *scratch, int threads, size_t chunk);
+
+#endif

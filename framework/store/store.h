@@ -1,0 +1,45 @@
+/* Results on disk: HDF5 with an XDMF sidecar, history.csv, summary.json, the scene as run. */
+#ifndef GAMUT_STORE_H
+#define GAMUT_STORE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "error/error.h"
+#include "quantity/quantity.h"
+#include "tree/tree.h"
+
+struct store;
+
+/* Creates DIR (and its parents). An existing result is refused with GAMUT_OUTPUT unless `force`, which
+ * removes only files of a former result. Nothing is made when the scene was wrong: call this late. */
+gamut_status store_open(const char *folder, bool force, struct trace *, struct store **);
+void store_close(struct store *); /* accepts null */
+
+/* One set of points in a frame: `count` real points. */
+struct frame_set {
+  const char *body;
+  size_t count;
+  const int64_t *id;
+  const double *position[3];     /* missing axes null: written as 0 */
+  int axes;                      /* 1, 2, 3: which of position are real */
+};
+struct frame_field {
+  const char *name, *unit, *meaning;
+  unsigned components;           /* 1, 3, 6 or 9: scalar, vector, symmetric tensor, tensor */
+  const double *const *data;     /* [set * components + component], count of that set each */
+};
+/* Writes group /frames/NNNNNNNN with /BODY/position, /BODY/id and one dataset a field, attributes with
+ * units; flushes; then rewrites results.xdmf by rename, so that a viewer may look during a run. */
+gamut_status store_frame(struct store *, double time, uint64_t step, const struct frame_set *,
+                         size_t sets, const struct frame_field *, size_t fields, struct trace *);
+/* Writes every history to history.csv (own time column each, long form: quantity,unit,time,value) and
+ * to /quantities/NAME/{time,value} in the HDF5 file. */
+gamut_status store_histories(struct store *, struct history *const *, size_t count, struct trace *);
+gamut_status store_scene(struct store *, const struct tree *, struct trace *);   /* scene.yaml */
+gamut_status store_summary(struct store *, const char *json, struct trace *);   /* summary.json, and
+                                                                     as attribute of the HDF5 root */
+const char *store_folder(const struct store *);
+
+#endif
