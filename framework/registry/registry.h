@@ -15,7 +15,13 @@ struct registry;
  * is privileged), $XDG_DATA_HOME/gamut/plugins (off with user_plugins false), the plugins beside the
  * build tree's command when it runs in place, then the installed folder. Only absolute folders that
  * belong to the user or root and that nobody else may write; others are skipped with a warning. The
- * first of two plugins with one id wins; the shadowed one is noted. */
+ * first of two plugins with one id wins; the shadowed one is noted.
+ *
+ * Below such a folder a plugin is KIND/NAME/NAME.yaml with its shared objects beside it. The build
+ * tree keeps the two apart: a file `plugins.path` in the folder of the running executable has lines
+ * "YAMLDIR SODIR" (one blank, both relative to that folder, e.g. "../plugins plugins"), and
+ * SODIR/KIND/NAME/NAME.so belongs to YAMLDIR/KIND/NAME/NAME.yaml. The installed folder is the string
+ * GAMUT_PLUGIN_FOLDER that the build defines. */
 struct registry_options { const char *plugin_path; bool user_plugins; };
 
 gamut_status registry_new(const struct registry_options *, const struct units *, struct trace *,
@@ -35,8 +41,15 @@ gamut_status registry_add(struct registry *, const char *path, struct trace *,
                           const struct descriptor **);
 
 /* Opens the plugin's shared object (once) and checks it: symbol, sizes, ABI, kind, name, digest,
- * block size, floating-point flags unchanged by loading. Picks the best instruction-set level that this
- * processor has. Refused with GAMUT_PLUGIN and the real reason, naming the file. Not thread-safe. */
+ * block size, floating-point flags unchanged by loading. Refused with GAMUT_PLUGIN and the real reason,
+ * naming the file. Not thread-safe.
+ *
+ * Each instruction-set level is a shared object of its own, and all export the plain symbol
+ * NAME_LTX_gamut_plugin. Of these the first that exists and that this processor can run is opened:
+ *   NAME.v4.so  x86-64-v4   __builtin_cpu_supports("x86-64-v4")
+ *   NAME.v3.so  x86-64-v3   __builtin_cpu_supports("x86-64-v3")
+ *   NAME.so     baseline    always there
+ * NAME.so alone is a whole plugin; that is what a stranger builds. */
 gamut_status registry_open(struct registry *, const struct descriptor *, struct trace *,
                            const struct gamut_plugin **);
 /* Instruction-set level that was picked ("x86-64-v4", "baseline"); null if not opened. */

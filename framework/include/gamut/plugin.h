@@ -45,7 +45,7 @@ enum gamut_kind {
   GAMUT_KINDS
 };
 
-/* What a shared object exports, one an instruction set. All members are constants of the plugin. */
+/* What a shared object exports. All members are constants of the plugin. */
 struct gamut_plugin {
   size_t size;        /* sizeof(struct gamut_plugin) where the plugin was built */
   uint32_t abi;       /* GAMUT_ABI where it was built */
@@ -103,22 +103,18 @@ struct gamut_plugin {
   gamut_status (*measure)(void *self, const char *name, const struct gamut_values *arguments,      \
                           double *value);
 
-/* Exports NAME_LTX_gamut_plugin. The build may define GAMUT_LEVEL (e.g. _v3, _v4) to put several
- * builds of the same source, one an instruction-set level, into one shared object. */
-#ifndef GAMUT_LEVEL
-#define GAMUT_LEVEL
-#endif
+/* Exports NAME_LTX_gamut_plugin. A build may put further shared objects beside NAME.so, made from the
+ * same source for a richer instruction set (NAME.v3.so, NAME.v4.so); each exports the same symbol and
+ * gamut opens the best one that the processor can run. */
 #if defined(__GNUC__)
 #define GAMUT_EXPORT __attribute__((visibility("default")))
 #else
 #define GAMUT_EXPORT
 #endif
-#define GAMUT_JOIN_(a, b, c) a##b##c
-#define GAMUT_JOIN(a, b, c) GAMUT_JOIN_(a, b, c)
 #define GAMUT_PLUGIN_(kind_, id, ...)                                                              \
   static const struct id##_ops id##_operations = {.size = sizeof(struct id##_ops), __VA_ARGS__};   \
-  extern GAMUT_EXPORT const struct gamut_plugin GAMUT_JOIN(id, _LTX_gamut_plugin, GAMUT_LEVEL);    \
-  GAMUT_EXPORT const struct gamut_plugin GAMUT_JOIN(id, _LTX_gamut_plugin, GAMUT_LEVEL) = {        \
+  extern GAMUT_EXPORT const struct gamut_plugin id##_LTX_gamut_plugin;    \
+  GAMUT_EXPORT const struct gamut_plugin id##_LTX_gamut_plugin = {        \
       .size = sizeof(struct gamut_plugin),                                                         \
       .abi = GAMUT_ABI,                                                                            \
       .kind = (kind_),                                                                             \
