@@ -25,7 +25,8 @@ struct trace *trace_new(void);
 void trace_free(struct trace *); /* accepts null */
 
 /* Records a message and returns `status`. printf format. A message is kept once if it is repeated
- * word for word at the same place; after 50 errors the rest is counted only. */
+ * word for word at the same place; after 50 errors (and 50 warnings) the rest is counted only. A null
+ * trace throws the words away, here and below. */
 gamut_status trace_fail(struct trace *, gamut_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* The full form: place (copied), scene path ("materials.copper.strength.A" or null), what was expected
@@ -46,7 +47,8 @@ gamut_status trace_worst(const struct trace *); /* status of the first error; GA
  *      12 |     strengt: johnson_cook
  *         |     ^~~~~~~  did you mean 'strength'?
  *   (materials.copper.strengt)
- * Control characters and very long lines of the source are shortened. */
+ * Control characters and line ends in any text are made harmless; a long line of the source is cut
+ * around the caret. Without a source line, `expected` stands on a line of its own. */
 void trace_print(struct trace *, FILE *);
 
 /* One sentence for a status code. */
