@@ -21,14 +21,17 @@
  *     - {set: [shear_modulus]}         names in `set` and `then` are declared parameters. Parameters
  *                                      of other sets must not be given. Derived ones need no value.
  *   inputs: [velocity_gradient, viscous_pressure?]   fields read; `?`: zero where nobody provides it
- *   outputs: [pressure, sound_speed]   fields written
- *   state:                             history: fields of their own, a begin and an end value
- *     plastic_strain: {unit: 1, components: 1, initial: 0, doc: ...}
+ *   outputs: [pressure, sound_speed]   fields written. A field that is not in the vocabulary (another
+ *                                      plugin's state) is an item "burn: {unit: 1, components: 1}"
+ *   state:                             history: fields of their own, a begin and an end value. Unit and
+ *     plastic_strain: {unit: 1, components: 1, initial: 0, doc: ...}   components of a field of the
+ *                                      vocabulary need not be stated, and must agree if they are
  *   scratch: 24                        scratch arrays for the kernel
  *   laws: [eos, strength?]             elasticity: callees; `?`: may be absent (null pointer)
  *   inverse: true                      strength: offers the inverse
  *   derivatives: {of: pressure, by: [C0, S1, reference_density]}
- *   variants: [{when: "C == 0", kernel: name, drops: [plastic_strain_rate]}]
+ *   variants: [{when: "C == 0", kernel: name, drops: [plastic_strain_rate]}]   `when` over real,
+ *                                      integer and boolean parameters; `drops`: inputs not needed then
  *   messages: {beyond_pole: {severity: stop, text: "..."}}
  *   tasks: [{kernel: heat, phase: after material, reads: [..], writes: [..], adds: [..]}]   effects
  *   body_parameters:, material_parameters:   like parameters: keys that this plugin adds to every body
@@ -90,8 +93,8 @@ struct given_set {
   const char **derived, **formula; size_t derivations; /* what follows: name = formula */
 };
 
-/* A field that a plugin reads or writes, or its state. */
-struct field_use { const char *name; bool optional; };
+/* A field that a plugin reads or writes, or a law that it calls (no unit, no components). */
+struct field_use { const char *name; bool optional; const char *unit; unsigned components; };
 struct state_variable {
   const char *name, *unit, *doc; unsigned components; double initial;
 };
@@ -172,12 +175,13 @@ struct slot {
  * type real, integer, boolean (0 or 1) and choice (its number). */
 size_t descriptor_layout(const struct descriptor *, struct slot **slots);
 
-/* Digest of kind, id, and the ordered names, units and components of the layout: 16 hex digits. Not of
- * the prose, nor of defaults. Computed by descriptor_read. */
+/* Digest of kind, id, the ordered names, units and components of the layout, and the ordered names of
+ * choices, messages and kernels (FNV-1a, 64 bits): 16 hex digits. Not of the prose, nor of defaults.
+ * Computed by descriptor_read. */
 
-/* Writes NAME.gamut.h: the struct with a comment a member, message constants, number of scratch
- * arrays, digest, struct NAME_ops (kind operations, then variants, then tasks, then kernels in declared
- * order). */
+/* Writes NAME.gamut.h: the struct with a comment a member, constants of choices and messages, number of
+ * scratch arrays, digest, struct NAME_ops (kind operations, then the kernels of variants, then those of
+ * tasks, in declared order). */
 void descriptor_header(const struct descriptor *, FILE *);
 /* For people: `gamut show`. */
 void descriptor_show(const struct descriptor *, FILE *);

@@ -54,7 +54,9 @@ struct vocable {
 /* The entry of that name, or null. */
 const struct vocable *vocabulary_find(const char *name);
 const struct vocable *vocabulary_at(size_t index); /* null past the end */
-/* "xx", "x", "" for component k of a field with n components. */
+/* "xx", "x", "" for component k of a field with n components; "0", "1" ... where n is none of 1, 2, 3,
+ * 6, 9. No field has more than VOCABULARY_COMPONENTS_MAX. */
+enum { VOCABULARY_COMPONENTS_MAX = 32 };
 const char *component_name(unsigned components, unsigned k);
 
 #endif

@@ -1,0 +1,170 @@
+/* NAME.gamut.h: what a plugin's C code includes. */
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "descriptor/reader.h"
+#include "field/vocabulary.h"
+
+/* Writes a name as part of a constant's. */
+static void put_upper(FILE *file, const char *name)
+{
+  for (; *name; name++)
+    fputc(isalnum((unsigned char)*name) ? toupper((unsigned char)*name) : '_', file);
+}
+
+/* Prose inside a comment: one line, and it does not end the comment. */
+static void put_comment(FILE *file, const char *text)
+{
+  char before = 0;
+  for (; *text; text++) {
+    char c = isspace((unsigned char)*text) ? ' ' : *text;
+    if (c == ' ' && (before == ' ' || text[1] == 0))
+      continue;
+    if ((before == '*' && c == '/') || (before == '/' && c == '*'))
+      fputc(' ', file);
+    fputc(c, file);
+    before = c;
+  }
+}
+
+static const char *slot_meaning(const struct descriptor *d, const struct slot *slot)
+{
+  switch (slot->kind) {
+  case SLOT_PARAMETER:
+    return d->parameter[slot->index].doc;
+  case SLOT_MATERIAL_PARAMETER:
+    return d->material_parameter[slot->index].doc;
+  case SLOT_INPUT:
+  case SLOT_OUTPUT:
+    return vocabulary_find(slot->name) ? vocabulary_find(slot->name)->meaning : NULL;
+  case SLOT_STATE_BEGIN:
+    return "at the beginning of the step";
+  case SLOT_STATE_END:
+    return d->state[slot->index].doc;
+  case SLOT_LAW:
+    return d->law[slot->index].optional ? "null if absent" : "never null";
+  case SLOT_SCRATCH:
+    return "for the kernel's own use";
+  case SLOT_INVERSE_INPUT:
+    return "what `inverse` reads";
+  case SLOT_INVERSE_OUTPUT:
+    return "what `inverse` writes";
+  case SLOT_DERIVATIVE:
+  case SLOT_SECOND_DERIVATIVE:
+    return "null if not wanted";
+  }
+  return NULL;
+}
+
+static void put_type(FILE *file, const struct slot *slot)
+{
+  if (slot->kind == SLOT_LAW)
+    fprintf(file, "  const struct gamut_%s_law *", slot->name);
+  else if (slot->kind == SLOT_PARAMETER || slot->kind == SLOT_MATERIAL_PARAMETER ||
+           slot->kind == SLOT_INPUT || slot->kind == SLOT_STATE_BEGIN ||
+           slot->kind == SLOT_INVERSE_INPUT)
+    fputs("  const double *", file);
+  else
+    fputs("  double *", file);
+}
+
+static void put_member(FILE *file, const struct descriptor *d, const struct slot *slot)
+{
+  put_type(file, slot);
+  fputs(slot->name, file);
+  if (slot->components > 1 || slot->kind == SLOT_SCRATCH)
+    fprintf(file, "[%u]", slot->components);
+  const char *meaning = slot_meaning(d, slot);
+  fputs("; /* ", file);
+  bool unit = slot->kind != SLOT_LAW && slot->kind != SLOT_SCRATCH;
+  if (unit)
+    put_comment(file, slot->unit);
+  if (meaning) {
+    fputs(unit ? ": " : "", file);
+    put_comment(file, meaning);
+  }
+  fputs(" */\n", file);
+}
+
+static void put_choices(FILE *file, const struct descriptor *d, const struct parameter *parameter,
+                        size_t count)
+{
+  for (size_t i = 0; i < count; i++)
+    for (size_t k = 0; parameter[i].type == VALUE_CHOICE && k < parameter[i].choices; k++) {
+      fputs("#define ", file);
+      put_upper(file, d->name);
+      fputc('_', file);
+      put_upper(file, parameter[i].name);
+      fputc('_', file);
+      put_upper(file, parameter[i].choice[k]);
+      fprintf(file, " %zu\n", k);
+    }
+}
+
+static void put_constants(FILE *file, const struct descriptor *d)
+{
+  static const char *const severity[] = {"GAMUT_FINE", "GAMUT_NOTE", "GAMUT_WARN", "GAMUT_STOP"};
+  fprintf(file, "#define %s_digest \"%s\"\n", d->name, d->digest);
+  fputs("#define ", file);
+  put_upper(file, d->name);
+  fprintf(file, "_SCRATCH %zu\n", d->scratch);
+  put_choices(file, d, d->parameter, d->parameters);
+  put_choices(file, d, d->material_parameter, d->material_parameters);
+  for (size_t i = 0; i < d->messages; i++) {
+    fputs("#define ", file);
+    put_upper(file, d->name);
+    fputc('_', file);
+    put_upper(file, d->message[i].name);
+    fprintf(file, " GAMUT_MESSAGE(%s, %zu)\n", severity[d->message[i].severity], i);
+  }
+}
+
+static void put_block(FILE *file, const struct descriptor *d)
+{
+  struct slot *slots;
+  size_t count = descriptor_layout(d, &slots);
+  fputs("\n/* ", file);
+  put_comment(file, d->summary);
+  fprintf(file, " */\nstruct %s {\n", d->name);
+  fputs("  size_t count;    /* points in this block */\n"
+        "  int64_t *status; /* one word a point, see GAMUT_FLAG */\n", file);
+  for (size_t i = 0; i < count; i++)
+    if (slots[i].component == 0)
+      put_member(file, d, &slots[i]);
+  fputs("};\n", file);
+  free(slots);
+}
+
+static void put_operations(FILE *file, const struct descriptor *d)
+{
+  fprintf(file, "\nstruct %s_ops {\n  size_t size;\n  GAMUT_", d->name);
+  put_upper(file, kind_name(d->kind));
+  fprintf(file, "_OPS(struct %s)\n", d->name);
+  for (size_t i = 0; i < d->variants; i++) {
+    fprintf(file, "  void (*%s)(const struct %s *); /* in place of the first operation where ",
+            d->variant[i].kernel, d->name);
+    put_comment(file, d->variant[i].when);
+    fputs(" */\n", file);
+  }
+  for (size_t i = 0; i < d->tasks; i++) {
+    fprintf(file, "  void (*%s)(const struct %s *); /* phase: ", d->task[i].kernel, d->name);
+    put_comment(file, d->task[i].phase);
+    fputs(" */\n", file);
+  }
+  fputs("};\n", file);
+}
+
+void descriptor_header(const struct descriptor *d, FILE *file)
+{
+  fprintf(file, "/* Generated from %s.yaml by `gamut header`; edit that instead. */\n#ifndef ",
+          d->name);
+  put_upper(file, d->name);
+  fputs("_GAMUT_H\n#define ", file);
+  put_upper(file, d->name);
+  fputs("_GAMUT_H\n\n#include <gamut/plugin.h>\n\n", file);
+  put_constants(file, d);
+  put_block(file, d);
+  put_operations(file, d);
+  fputs("\n#endif\n", file);
+}

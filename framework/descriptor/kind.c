@@ -1,0 +1,73 @@
+#include <assert.h>
+#include <string.h>
+
+#include "descriptor/reader.h"
+
+const char *kind_name(enum gamut_kind kind)
+{
+  static const char *const name[] = {
+#define KIND_NAME(kind, name) [kind] = name,
+      GAMUT_KIND_LIST(KIND_NAME)
+#undef KIND_NAME
+  };
+  assert((size_t)kind < LENGTH(name));
+  return name[kind];
+}
+
+bool kind_from_name(const char *name, enum gamut_kind *kind)
+{
+  for (int k = 0; k < GAMUT_KINDS; k++)
+    if (strcmp(kind_name((enum gamut_kind)k), name) == 0) {
+      *kind = (enum gamut_kind)k;
+      return true;
+    }
+  return false;
+}
+
+const char *kind_operation(enum gamut_kind kind, size_t index)
+{
+  static const char *const operation[GAMUT_KINDS][12] = {
+      [GAMUT_KIND_EOS] = {"pressure", "derivatives"},
+      [GAMUT_KIND_STRENGTH] = {"flow_stress", "inverse", "derivatives"},
+      [GAMUT_KIND_ELASTICITY] = {"stress", "start"},
+      [GAMUT_KIND_EFFECT] = {"create", "destroy", "decline", "measure"},
+      [GAMUT_KIND_RANDOM_FIELD] = {"create", "destroy", "sample"},
+      [GAMUT_KIND_ESTIMATOR] = {"create", "destroy", "ask", "tell", "report", "save", "restore"},
+      [GAMUT_KIND_SOLVER] = {"create", "destroy", "start", "next", "after", "plane", "measure",
+                             "describe"},
+  };
+  return index < LENGTH(operation[kind]) ? operation[kind][index] : NULL;
+}
+
+const char *value_type_name(enum value_type type)
+{
+  static const char *const name[] = {
+      [VALUE_REAL] = "real",   [VALUE_INTEGER] = "integer",       [VALUE_BOOLEAN] = "boolean",
+      [VALUE_CHOICE] = "choice", [VALUE_TEXT] = "text",           [VALUE_VECTOR] = "vector",
+      [VALUE_BODY] = "body",   [VALUE_EXPRESSION] = "expression", [VALUE_TABLE] = "table",
+      [VALUE_GROUP] = "group",
+  };
+  return (size_t)type < LENGTH(name) ? name[type] : NULL;
+}
+
+bool kernel_sees(const struct parameter *parameter)
+{
+  return parameter->type == VALUE_REAL || parameter->type == VALUE_INTEGER ||
+         parameter->type == VALUE_BOOLEAN || parameter->type == VALUE_CHOICE;
+}
+
+const struct parameter *parameter_named(const struct parameter *parameter, size_t count,
+                                        const char *name)
+{
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(parameter[i].name, name) == 0)
+      return &parameter[i];
+  return NULL;
+}
+
+int descriptor_parameter(const struct descriptor *descriptor, const char *name)
+{
+  const struct parameter *found =
+      parameter_named(descriptor->parameter, descriptor->parameters, name);
+  return found ? (int)(found - descriptor->parameter) : -1;
+}

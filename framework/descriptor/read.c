@@ -1,0 +1,234 @@
+/* The top of a plugin's YAML: who it is, and rules that span sections. */
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "descriptor/reader.h"
+
+#define KIND(kind) (1U << (kind))
+enum {
+  EVERY = (1U << GAMUT_KINDS) - 1,
+  LAWS = KIND(GAMUT_KIND_EOS) | KIND(GAMUT_KIND_STRENGTH),
+  KERNELS = LAWS | KIND(GAMUT_KIND_ELASTICITY) | KIND(GAMUT_KIND_EFFECT),
+  SOLVER = KIND(GAMUT_KIND_SOLVER),
+  MEASURES = SOLVER | KIND(GAMUT_KIND_EFFECT) | KIND(GAMUT_KIND_ELASTICITY)
+};
+
+/* Which section has a meaning for which kinds. */
+static const struct {
+  const char *key;
+  unsigned kinds;
+} sections[] = {
+    {"plugin", EVERY},
+    {"version", EVERY},
+    {"summary", EVERY},
+    {"formula", EVERY},
+    {"notes", EVERY},
+    {"source", EVERY},
+    {"parameters", EVERY},
+    {"constraints", EVERY},
+    {"given", EVERY},
+    {"requires", EVERY},
+    {"provides", EVERY},
+    {"messages", EVERY},
+    {"inputs", KERNELS},
+    {"outputs", KERNELS},
+    {"scratch", KERNELS},
+    {"state", KERNELS | SOLVER},
+    {"laws", KIND(GAMUT_KIND_ELASTICITY)},
+    {"inverse", KIND(GAMUT_KIND_STRENGTH)},
+    {"derivatives", LAWS},
+    {"variants", LAWS | KIND(GAMUT_KIND_ELASTICITY)},
+    {"tasks", KIND(GAMUT_KIND_EFFECT)},
+    {"body_parameters", SOLVER},
+    {"material_parameters", KIND(GAMUT_KIND_EFFECT) | KIND(GAMUT_KIND_ELASTICITY)},
+    {"phases", SOLVER},
+    {"axis", SOLVER},
+    {"measures", MEASURES},
+};
+
+/* "kind/name" */
+static bool read_identity(struct reader *reader, const struct tree *root)
+{
+  struct descriptor *d = reader->descriptor;
+  const char *kinds[GAMUT_KINDS];
+  for (int k = 0; k < GAMUT_KINDS; k++)
+    kinds[k] = kind_name((enum gamut_kind)k);
+  d->id = read_text(reader, root, "plugin", true);
+  if (!d->id)
+    return false;
+  const struct tree *node = tree_get(root, "plugin");
+  const char *slash = strchr(d->id, '/');
+  if (!slash) {
+    fault(reader, node, "kind/name, such as eos/linear", "'%s' names no kind", d->id);
+    return false;
+  }
+  const char *kind = reader_text(reader, d->id, (size_t)(slash - d->id));
+  d->name = slash + 1;
+  if (!kind_from_name(kind, &d->kind)) {
+    char expected[256] = "";
+    const char *near = nearest(kind, kinds, LENGTH(kinds));
+    if (near)
+      snprintf(expected, sizeof expected, "did you mean '%s'?", near);
+    else
+      for (size_t k = 0; k < LENGTH(kinds); k++)
+        snprintf(expected + strlen(expected), sizeof expected - strlen(expected), "%s%s",
+                 k ? ", " : "known are ", kinds[k]);
+    fault(reader, node, expected, "'%s' is no kind of plugin", kind);
+    return false;
+  }
+  if (is_reserved(d->name) || strncmp(d->name, "gamut", 5) == 0) {
+    fault(reader, node, "another name", "a plugin cannot be called '%s'", d->name);
+    return false;
+  }
+  return check_name(reader, node, false, d->name);
+}
+
+/* The file is called NAME.yaml. Below a folder that is called like a kind, the folders agree too. */
+static void check_place(struct reader *reader, const struct tree *root, const char *file)
+{
+  struct descriptor *d = reader->descriptor;
+  const struct tree *node = tree_get(root, "plugin");
+  char path[PATH_MAX], expected[256];
+  if (!realpath(file, path))
+    snprintf(path, sizeof path, "%s", file);
+  d->file = reader_text(reader, path, strlen(path));
+  char *slash = strrchr(path, '/');
+  const char *base = slash ? slash + 1 : path;
+  snprintf(expected, sizeof expected, "%s.yaml", d->name);
+  if (strcmp(base, expected) != 0)
+    fault(reader, node, expected, "plugin '%s' stands in a file called '%s'", d->name, base);
+  if (!slash) {
+    d->folder = ".";
+    return;
+  }
+  *slash = 0;
+  d->folder = reader_text(reader, path, strlen(path));
+  enum gamut_kind kind;
+  char *folder = strrchr(path, '/');
+  if (!folder || folder == path)
+    return;
+  *folder++ = 0;
+  const char *above = strrchr(path, '/');
+  if (!above || !kind_from_name(above + 1, &kind))
+    return;
+  if (kind != d->kind)
+    fault(reader, node, NULL, "plugin '%s' stands in the folder of the kind '%s'", d->id,
+          above + 1);
+  else if (strcmp(folder, d->name) != 0)
+    fault(reader, node, NULL, "plugin '%s' stands in a folder called '%s'", d->name, folder);
+}
+
+static void check_sections(struct reader *reader, const struct tree *root)
+{
+  struct descriptor *d = reader->descriptor;
+  const char *known[LENGTH(sections)];
+  for (size_t i = 0; i < LENGTH(sections); i++)
+    known[i] = sections[i].key;
+  check_keys(reader, root, known, LENGTH(known), "a plugin's YAML");
+  for (size_t i = 0; i < LENGTH(sections); i++) {
+    const struct tree *node = tree_get(root, sections[i].key);
+    if (node && !(sections[i].kinds & KIND(d->kind)))
+      fault_key(reader, node, NULL, "'%s' has no meaning for plugins of kind %s", sections[i].key,
+                kind_name(d->kind));
+  }
+}
+
+static void check_outputs(struct reader *reader, const struct tree *root)
+{
+  static const char *const must[GAMUT_KINDS][2] = {
+      [GAMUT_KIND_EOS] = {"pressure", "sound_speed"},
+      [GAMUT_KIND_STRENGTH] = {"flow_stress"},
+  };
+  const struct descriptor *d = reader->descriptor;
+  for (size_t m = 0; m < 2 && must[d->kind][m]; m++) {
+    bool found = false;
+    for (size_t i = 0; i < d->outputs && !found; i++)
+      found = strcmp(d->output[i].name, must[d->kind][m]) == 0;
+    const struct tree *outputs = tree_get(root, "outputs");
+    if (!found)
+      fault_key(reader, outputs ? outputs : root, NULL, "a plugin of kind %s writes '%s'",
+                kind_name(d->kind), must[d->kind][m]);
+  }
+}
+
+static void check_names(struct reader *reader, const struct tree *root, const char *section,
+                        const struct parameter *parameter, size_t count)
+{
+  const struct descriptor *d = reader->descriptor;
+  for (size_t i = 0; i < count; i++)
+    if (!kernel_sees(&parameter[i]) &&
+        parameter_named(d->parameter, d->parameters, parameter[i].name))
+      fault_key(reader, tree_get(tree_get(root, section), parameter[i].name), "another name",
+                "'%s' is declared twice, under 'parameters' and under '%s'", parameter[i].name,
+                section);
+}
+
+static void read_all(struct reader *reader, const struct tree *root, const char *file)
+{
+  struct descriptor *d = reader->descriptor;
+  if (root->kind != TREE_MAPPING) {
+    fault(reader, root, "keys with values, beginning with \"plugin: kind/name\"",
+          "this is no plugin's YAML");
+    return;
+  }
+  if (!read_identity(reader, root))
+    return;
+  check_place(reader, root, file);
+  check_sections(reader, root);
+  d->version = read_text(reader, root, "version", true);
+  d->summary = read_text(reader, root, "summary", true);
+  d->formula = read_text(reader, root, "formula", false);
+  d->notes = read_text(reader, root, "notes", false);
+  d->source = read_texts(reader, tree_get(root, "source"), "source", &d->sources);
+  d->parameters = read_parameters(reader, tree_get(root, "parameters"), true, &d->parameter);
+  d->body_parameters =
+      read_parameters(reader, tree_get(root, "body_parameters"), true, &d->body_parameter);
+  d->material_parameters =
+      read_parameters(reader, tree_get(root, "material_parameters"), true, &d->material_parameter);
+  check_names(reader, root, "material_parameters", d->material_parameter, d->material_parameters);
+  read_fields(reader, root);
+  read_rules(reader, root);
+  read_messages(reader, root);
+  read_services(reader, root);
+  check_outputs(reader, root);
+  check_layout(reader, root);
+}
+
+gamut_status descriptor_read(const char *file, const struct units *units, struct trace *trace,
+                             struct descriptor **descriptor)
+{
+  struct tree *root = NULL;
+  *descriptor = NULL;
+  gamut_status status = tree_read(file, GAMUT_PLUGIN, trace, &root);
+  if (status != GAMUT_OK)
+    return status;
+  struct descriptor_store *store = calloc(1, sizeof *store);
+  if (!store) {
+    tree_free(root);
+    return trace_fail(trace, GAMUT_INTERNAL, "no memory left for '%s'", file);
+  }
+  store->shown.tree = root;
+  struct reader reader = {.units = units, .trace = trace, .descriptor = &store->shown};
+  read_all(&reader, root, file);
+  if (reader.faults) {
+    descriptor_free(&store->shown);
+    return GAMUT_PLUGIN;
+  }
+  descriptor_seal(&store->shown);
+  *descriptor = &store->shown;
+  return GAMUT_OK;
+}
+
+void descriptor_free(struct descriptor *descriptor)
+{
+  if (!descriptor)
+    return;
+  struct descriptor_store *store = (struct descriptor_store *)(void *)descriptor;
+  for (struct keep *kept = store->kept, *next; kept; kept = next) {
+    next = kept->next;
+    free(kept);
+  }
+  tree_free(store->shown.tree);
+  free(store);
+}

@@ -1,0 +1,181 @@
+/* What a plugin reads, writes, remembers and calls: inputs, outputs, state, scratch, laws,
+ * derivatives. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "descriptor/reader.h"
+#include "field/vocabulary.h"
+
+/* "name" or "name?" or "name: {unit: .., components: ..}" (a sequence item). */
+static bool read_field(struct reader *reader, const struct tree *item, struct field_use *use)
+{
+  static const char *const keys[] = {"unit", "components"};
+  const struct tree *own = NULL;
+  if (item->kind == TREE_MAPPING && item->children == 1)
+    own = item->child[0];
+  const char *written = own ? own->key : item->text;
+  if (item->kind == TREE_SEQUENCE || written[0] == 0) {
+    fault(reader, item, "a name, or \"name: {unit: Pa, components: 1}\"", "this is no field");
+    return false;
+  }
+  size_t length = strlen(written);
+  use->optional = written[length - 1] == '?';
+  use->name = use->optional ? reader_text(reader, written, length - 1) : written;
+  if (!check_name(reader, own ? own : item, own != NULL, use->name))
+    return false;
+  const struct vocable *entry = vocabulary_find(use->name);
+  if (own && check_keys(reader, own, keys, LENGTH(keys), use->name)) {
+    use->unit = read_unit(reader, own, "unit", !entry);
+    use->components =
+        (unsigned)read_whole(reader, own, "components", 1, VOCABULARY_COMPONENTS_MAX, 1);
+  }
+  if (entry) {
+    use->unit = entry->unit;
+    use->components = entry->components;
+  } else if (!own) {
+    const char *known[128];
+    size_t count = 0;
+    for (const struct vocable *v; count < LENGTH(known) && (v = vocabulary_at(count)); count++)
+      known[count] = v->name;
+    char expected[256];
+    const char *near = nearest(use->name, known, count);
+    snprintf(expected, sizeof expected, "%s%s%sanother plugin's state is written \"%s: {unit: .., "
+             "components: ..}\"", near ? "did you mean '" : "", near ? near : "",
+             near ? "'? " : "", use->name);
+    fault(reader, item, expected, "unknown field '%s'", use->name);
+    return false;
+  }
+  if (!use->unit)
+    use->unit = "1";
+  return true;
+}
+
+static size_t read_uses(struct reader *reader, const struct tree *node, struct field_use **list)
+{
+  if (!node)
+    return 0;
+  if (node->kind != TREE_SEQUENCE) {
+    fault(reader, node, "[pressure, sound_speed]", "'%s' is no list", node->key);
+    return 0;
+  }
+  size_t count = 0;
+  *list = reader_keep(reader, node->children, sizeof **list);
+  for (size_t i = 0; i < node->children; i++)
+    if (read_field(reader, node->child[i], &(*list)[count]))
+      count++;
+  return count;
+}
+
+static void read_state(struct reader *reader, const struct tree *node,
+                       struct state_variable *state)
+{
+  static const char *const keys[] = {"unit", "components", "initial", "doc"};
+  state->name = node->key;
+  state->unit = "1";
+  state->components = 1;
+  if (!check_name(reader, node, true, node->key) ||
+      !check_keys(reader, node, keys, LENGTH(keys), node->key))
+    return;
+  const struct vocable *entry = vocabulary_find(node->key);
+  const char *unit = read_unit(reader, node, "unit", !entry);
+  unsigned standard = entry ? entry->components : 1;
+  state->components =
+      (unsigned)read_whole(reader, node, "components", 1, VOCABULARY_COMPONENTS_MAX, standard);
+  state->doc = read_text(reader, node, "doc", !entry);
+  if (entry) {
+    if (unit && strcmp(unit, entry->unit) != 0)
+      fault(reader, tree_get(node, "unit"), entry->unit, "'%s' has another unit", node->key);
+    if (state->components != entry->components)
+      fault(reader, tree_get(node, "components"), NULL, "'%s' has %u components", node->key,
+            entry->components);
+    unit = entry->unit;
+    state->components = entry->components;
+    if (!state->doc)
+      state->doc = entry->meaning;
+  }
+  state->unit = unit ? unit : "1";
+  const char *initial = read_text(reader, node, "initial", false);
+  if (initial && unit_read_bare(reader->units, initial, state->unit, &state->initial) != UNIT_OK)
+    fault(reader, tree_get(node, "initial"), unit_example(state->unit),
+          "the initial value '%s' is no quantity in %s", initial, state->unit);
+}
+
+static void read_states(struct reader *reader, const struct tree *node)
+{
+  struct descriptor *d = reader->descriptor;
+  if (!node)
+    return;
+  if (node->kind != TREE_MAPPING) {
+    fault(reader, node, "{name: {unit: Pa, doc: ...}}", "'state' is no mapping");
+    return;
+  }
+  d->state = reader_keep(reader, node->children, sizeof *d->state);
+  for (size_t i = 0; i < node->children; i++)
+    read_state(reader, node->child[i], &d->state[d->states++]);
+}
+
+static void read_laws(struct reader *reader, const struct tree *node)
+{
+  static const char *const known[] = {"eos", "strength"};
+  struct descriptor *d = reader->descriptor;
+  size_t count;
+  const char **text = read_texts(reader, node, "laws", &count);
+  d->law = reader_keep(reader, count, sizeof *d->law);
+  for (size_t i = 0; i < count; i++) {
+    size_t length = strlen(text[i]);
+    bool optional = text[i][length - 1] == '?';
+    const char *name = optional ? reader_text(reader, text[i], length - 1) : text[i];
+    if (strcmp(name, "eos") != 0 && strcmp(name, "strength") != 0)
+      fault_unknown(reader, node->kind == TREE_SEQUENCE ? node->child[i] : node, false, known,
+                    LENGTH(known), "'%s' is no law", name);
+    else
+      d->law[d->laws++] = (struct field_use){.name = name, .optional = optional};
+  }
+}
+
+static const struct field_use *use_named(const struct field_use *use, size_t count,
+                                         const char *name)
+{
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(use[i].name, name) == 0)
+      return &use[i];
+  return NULL;
+}
+
+static void read_derivatives(struct reader *reader, const struct tree *node)
+{
+  static const char *const keys[] = {"of", "by"};
+  struct descriptor *d = reader->descriptor;
+  if (!node || !check_keys(reader, node, keys, LENGTH(keys), "'derivatives'"))
+    return;
+  d->derivative_of = read_text(reader, node, "of", true);
+  if (d->derivative_of && !use_named(d->output, d->outputs, d->derivative_of))
+    fault(reader, tree_get(node, "of"), NULL, "'%s' is no output", d->derivative_of);
+  const struct tree *by = tree_get(node, "by");
+  if (!by)
+    fault_key(reader, node, NULL, "'by' is missing");
+  d->derivative_by = read_texts(reader, by, "by", &d->derivatives);
+  for (size_t i = 0; i < d->derivatives; i++) {
+    const struct parameter *parameter =
+        parameter_named(d->parameter, d->parameters, d->derivative_by[i]);
+    const struct field_use *input = use_named(d->input, d->inputs, d->derivative_by[i]);
+    if (!(parameter && parameter->type == VALUE_REAL) && !(input && input->components == 1))
+      fault(reader, by->kind == TREE_SEQUENCE ? by->child[i] : by, NULL,
+            "'%s' is neither a real parameter nor an input with one component",
+            d->derivative_by[i]);
+  }
+  if (!d->derivative_of)
+    d->derivatives = 0;
+}
+
+void read_fields(struct reader *reader, const struct tree *root)
+{
+  struct descriptor *d = reader->descriptor;
+  d->inputs = read_uses(reader, tree_get(root, "inputs"), &d->input);
+  d->outputs = read_uses(reader, tree_get(root, "outputs"), &d->output);
+  read_states(reader, tree_get(root, "state"));
+  d->scratch = (size_t)read_whole(reader, root, "scratch", 0, 256, 0);
+  read_laws(reader, tree_get(root, "laws"));
+  d->inverse = read_flag(reader, root, "inverse", false);
+  read_derivatives(reader, tree_get(root, "derivatives"));
+}

@@ -1,0 +1,291 @@
+/* Parameters: of a plugin, of a group, of bodies and materials, and arguments of measures. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "descriptor/reader.h"
+
+#define BIT(type) (1U << (type))
+enum {
+  ALL = (1U << (VALUE_GROUP + 1)) - 1,
+  NUMBERS = BIT(VALUE_REAL) | BIT(VALUE_VECTOR),
+  RANGED = NUMBERS | BIT(VALUE_INTEGER)
+};
+
+/* Which key has a meaning for which types. */
+static const struct {
+  const char *key;
+  unsigned types;
+} key_types[] = {
+    {"type", ALL},
+    {"doc", ALL},
+    {"source", ALL},
+    {"symbol", ALL},
+    {"optional", ALL},
+    {"default", ALL & ~BIT(VALUE_GROUP)},
+    {"unit", RANGED | BIT(VALUE_EXPRESSION)},
+    {"fit", RANGED},
+    {"physical", RANGED},
+    {"random", BIT(VALUE_REAL)},
+    {"size", BIT(VALUE_VECTOR)},
+    {"choices", BIT(VALUE_CHOICE)},
+    {"variables", BIT(VALUE_EXPRESSION)},
+    {"columns", BIT(VALUE_TABLE)},
+    {"members", BIT(VALUE_GROUP)},
+};
+
+static enum value_type read_type(struct reader *reader, const struct tree *node)
+{
+  const char *text = read_text(reader, node, "type", false);
+  if (!text)
+    return VALUE_REAL;
+  const char *known[VALUE_GROUP + 1];
+  for (int type = VALUE_REAL; type <= VALUE_GROUP; type++) {
+    known[type] = value_type_name((enum value_type)type);
+    if (strcmp(known[type], text) == 0)
+      return (enum value_type)type;
+  }
+  fault_unknown(reader, tree_get(node, "type"), false, known, LENGTH(known), "unknown type '%s'",
+                text);
+  return VALUE_REAL;
+}
+
+static void check_parameter_keys(struct reader *reader, const struct tree *node,
+                                 enum value_type type)
+{
+  const char *known[LENGTH(key_types)];
+  size_t count = 0;
+  for (size_t i = 0; i < LENGTH(key_types); i++)
+    known[count++] = key_types[i].key;
+  char what[96];
+  snprintf(what, sizeof what, "parameter '%s'", node->key);
+  check_keys(reader, node, known, count, what);
+  for (size_t i = 0; i < LENGTH(key_types); i++) {
+    const struct tree *child = tree_get(node, key_types[i].key);
+    if (child && !(key_types[i].types & BIT(type)))
+      fault_key(reader, child, NULL, "'%s' has no meaning for a parameter of type %s",
+                key_types[i].key, value_type_name(type));
+  }
+}
+
+static void read_range(struct reader *reader, const struct tree *node, const char *key,
+                       const struct parameter *parameter, struct range *range)
+{
+  char why[256];
+  const char *text = read_text(reader, node, key, false);
+  if (!text)
+    return;
+  const char *unit = parameter->unit ? parameter->unit : "1";
+  if (!range_read(text, unit, reader->units, range, why, sizeof why)) {
+    fault(reader, tree_get(node, key), NULL, "cannot read the range '%s': %s", text, why);
+    range->stated = false;
+  }
+}
+
+/* "3" or "1..3" */
+static void read_size(struct reader *reader, const struct tree *node, struct parameter *parameter)
+{
+  const char *text = read_text(reader, node, "size", true);
+  parameter->size_min = parameter->size_max = 1;
+  if (!text)
+    return;
+  char *after;
+  long low = strtol(text, &after, 10), high = low;
+  bool good = after != text;
+  if (good && strncmp(after, "..", 2) == 0) {
+    const char *next = after + 2;
+    high = strtol(next, &after, 10);
+    good = after != next;
+  }
+  if (!good || *after || low < 1 || high < low || high > 1000) {
+    fault(reader, tree_get(node, "size"), "a number such as 3, or a span such as 1..3",
+          "'%s' is no size of a vector", text);
+    return;
+  }
+  parameter->size_min = (size_t)low;
+  parameter->size_max = (size_t)high;
+}
+
+static void read_columns(struct reader *reader, const struct tree *node,
+                         struct parameter *parameter)
+{
+  const struct tree *columns = tree_get(node, "columns");
+  if (!columns || columns->kind != TREE_MAPPING || columns->children == 0) {
+    fault(reader, columns ? columns : node, "columns: {time: s, strain: 1}",
+          "table '%s' has no columns", parameter->name);
+    return;
+  }
+  parameter->choice = reader_keep(reader, columns->children, sizeof *parameter->choice);
+  parameter->choice_unit = reader_keep(reader, columns->children, sizeof *parameter->choice_unit);
+  for (size_t i = 0; i < columns->children; i++) {
+    const char *unit = read_unit(reader, columns, columns->child[i]->key, true);
+    check_name(reader, columns->child[i], true, columns->child[i]->key);
+    parameter->choice[i] = columns->child[i]->key;
+    parameter->choice_unit[i] = unit ? unit : "1";
+  }
+  parameter->choices = columns->children;
+}
+
+static void read_choices(struct reader *reader, const struct tree *node, const char *key,
+                         struct parameter *parameter)
+{
+  const struct tree *list = tree_get(node, key);
+  parameter->choice = read_texts(reader, list, key, &parameter->choices);
+  if (!list || (list->kind == TREE_SEQUENCE && list->children == 0))
+    fault(reader, list ? list : node, NULL, "'%s' of '%s' is missing", key, parameter->name);
+}
+
+static void check_default_number(struct reader *reader, const struct tree *node,
+                                 const struct parameter *parameter)
+{
+  double value = 0;
+  char expected[256];
+  const char *unit = parameter->unit ? parameter->unit : "1";
+  enum unit_result result = node->kind == TREE_SCALAR && !node->quoted
+                                ? unit_read(reader->units, node->text, unit, &value)
+                                : UNIT_NOT_A_NUMBER;
+  snprintf(expected, sizeof expected, "for example '%s'", unit_example(unit));
+  if (result != UNIT_OK)
+    fault(reader, node, expected, "the default '%s' of '%s' is no quantity in %s", node->text,
+          parameter->name, unit);
+  else if (parameter->type == VALUE_INTEGER && value != floor(value))
+    fault(reader, node, NULL, "the default '%s' of '%s' is no whole number", node->text,
+          parameter->name);
+  else if (!range_holds(&parameter->physical, value))
+    fault(reader, node, range_text(&parameter->physical, unit, expected, sizeof expected),
+          "the default of '%s' lies outside its physical range", parameter->name);
+  else if (!range_holds(&parameter->fit, value))
+    fault(reader, node, range_text(&parameter->fit, unit, expected, sizeof expected),
+          "the default of '%s' lies outside the range of its fit", parameter->name);
+}
+
+static void check_default_vector(struct reader *reader, const struct tree *node,
+                                 const struct parameter *parameter)
+{
+  if (node->kind != TREE_SEQUENCE || node->children < parameter->size_min ||
+      node->children > parameter->size_max) {
+    char expected[96];
+    snprintf(expected, sizeof expected, "a list of %zu to %zu numbers", parameter->size_min,
+             parameter->size_max);
+    fault(reader, node, expected, "the default of '%s' has the wrong size", parameter->name);
+    return;
+  }
+  for (size_t i = 0; i < node->children; i++)
+    check_default_number(reader, node->child[i], parameter);
+}
+
+static void check_default(struct reader *reader, const struct parameter *parameter)
+{
+  const struct tree *node = parameter->standard;
+  bool scalar = node->kind == TREE_SCALAR;
+  switch (parameter->type) {
+  case VALUE_REAL:
+  case VALUE_INTEGER:
+    check_default_number(reader, node, parameter);
+    return;
+  case VALUE_VECTOR:
+    check_default_vector(reader, node, parameter);
+    return;
+  case VALUE_BOOLEAN:
+    if (!scalar || (strcmp(node->text, "true") != 0 && strcmp(node->text, "false") != 0))
+      fault(reader, node, "true or false", "the default of '%s' is neither true nor false",
+            parameter->name);
+    return;
+  case VALUE_CHOICE:
+    for (size_t i = 0; scalar && i < parameter->choices; i++)
+      if (strcmp(parameter->choice[i], node->text) == 0)
+        return;
+    fault_unknown(reader, node, false, (const char *const *)parameter->choice, parameter->choices,
+                  "the default '%s' of '%s' is none of its choices", node->text, parameter->name);
+    return;
+  case VALUE_TEXT:
+  case VALUE_BODY:
+    if (!scalar)
+      fault(reader, node, "one text", "the default of '%s' is no text", parameter->name);
+    return;
+  case VALUE_EXPRESSION:
+  case VALUE_TABLE:
+  case VALUE_GROUP:
+    return;
+  }
+}
+
+static void read_by_type(struct reader *reader, const struct tree *node,
+                         struct parameter *parameter)
+{
+  switch (parameter->type) {
+  case VALUE_VECTOR:
+    read_size(reader, node, parameter);
+    break;
+  case VALUE_CHOICE:
+    read_choices(reader, node, "choices", parameter);
+    break;
+  case VALUE_EXPRESSION:
+    read_choices(reader, node, "variables", parameter);
+    break;
+  case VALUE_TABLE:
+    read_columns(reader, node, parameter);
+    break;
+  case VALUE_GROUP:
+    if (!tree_get(node, "members"))
+      fault_key(reader, node, NULL, "group '%s' has no members", parameter->name);
+    parameter->members =
+        read_parameters(reader, tree_get(node, "members"), true, &parameter->member);
+    break;
+  default:
+    break;
+  }
+}
+
+static void read_parameter(struct reader *reader, const struct tree *node, bool documented,
+                           struct parameter *parameter)
+{
+  parameter->name = node->key;
+  check_name(reader, node, true, node->key);
+  if (node->kind != TREE_MAPPING) {
+    fault(reader, node, "{unit: Pa, doc: ...}", "parameter '%s' is no mapping", node->key);
+    return;
+  }
+  enum value_type type = parameter->type = read_type(reader, node);
+  check_parameter_keys(reader, node, type);
+  bool dimensional = (NUMBERS | BIT(VALUE_EXPRESSION)) & BIT(type);
+  if (dimensional || type == VALUE_INTEGER)
+    parameter->unit = read_unit(reader, node, "unit", dimensional);
+  if (type == VALUE_INTEGER && parameter->unit && strcmp(parameter->unit, "1") != 0)
+    fault(reader, tree_get(node, "unit"), NULL, "an integer has no unit but 1");
+  if (!parameter->unit && (dimensional || type == VALUE_INTEGER))
+    parameter->unit = "1";
+  parameter->symbol = read_text(reader, node, "symbol", false);
+  parameter->doc = read_text(reader, node, "doc", documented);
+  parameter->source = read_text(reader, node, "source", false);
+  parameter->optional = read_flag(reader, node, "optional", false);
+  parameter->random = read_flag(reader, node, "random", false);
+  read_by_type(reader, node, parameter);
+  read_range(reader, node, "fit", parameter, &parameter->fit);
+  read_range(reader, node, "physical", parameter, &parameter->physical);
+  if (!range_within(&parameter->fit, &parameter->physical))
+    fault(reader, tree_get(node, "fit"), NULL,
+          "the range of the fit of '%s' reaches beyond its physical range", parameter->name);
+  parameter->standard = tree_get(node, "default");
+  /* A unit that cannot be read is one fault, not two. */
+  bool judged = !dimensional || tree_get(node, "unit");
+  if (parameter->standard && judged)
+    check_default(reader, parameter);
+}
+
+size_t read_parameters(struct reader *reader, const struct tree *node, bool documented,
+                       struct parameter **list)
+{
+  *list = NULL;
+  if (!node)
+    return 0;
+  if (node->kind != TREE_MAPPING) {
+    if (node->kind == TREE_SEQUENCE || node->text[0])
+      fault(reader, node, "{name: {unit: Pa, doc: ...}}", "'%s' is no mapping", node->key);
+    return 0;
+  }
+  *list = reader_keep(reader, node->children, sizeof **list);
+  for (size_t i = 0; i < node->children; i++)
+    read_parameter(reader, node->child[i], documented, &(*list)[i]);
+  return node->children;
+}

@@ -1,0 +1,115 @@
+/* What a plugin offers and asks for: requires, provides, phases, axis, measures, parameters that it adds
+ * to bodies and materials. */
+#include <string.h>
+
+#include "descriptor/reader.h"
+#include "field/vocabulary.h"
+
+/* Names that a measure's formula may use: components of the fields of the vocabulary and of this
+ * plugin. */
+static void add_components(struct reader *reader, const char *name, unsigned components,
+                           const char **names, size_t *count)
+{
+  for (unsigned k = 0; k < components; k++) {
+    char text[128];
+    const char *part = component_name(components, k);
+    int length = snprintf(text, sizeof text, "%s%s%s", name, part[0] ? "_" : "", part);
+    const char *kept = reader_text(reader, text, (size_t)length);
+    for (size_t i = 0; i < *count && kept; i++)
+      if (strcmp(names[i], kept) == 0)
+        kept = NULL;
+    if (kept)
+      names[(*count)++] = kept;
+  }
+}
+
+static size_t measurable_names(struct reader *reader, const char ***names)
+{
+  const struct descriptor *d = reader->descriptor;
+  size_t room = 0, count = 0;
+  for (size_t i = 0; vocabulary_at(i); i++)
+    room += vocabulary_at(i)->components;
+  room += (d->inputs + d->outputs + d->states) * VOCABULARY_COMPONENTS_MAX;
+  *names = reader_keep(reader, room, sizeof **names);
+  for (size_t i = 0; vocabulary_at(i); i++)
+    add_components(reader, vocabulary_at(i)->name, vocabulary_at(i)->components, *names, &count);
+  for (size_t i = 0; i < d->inputs; i++)
+    add_components(reader, d->input[i].name, d->input[i].components, *names, &count);
+  for (size_t i = 0; i < d->outputs; i++)
+    add_components(reader, d->output[i].name, d->output[i].components, *names, &count);
+  for (size_t i = 0; i < d->states; i++)
+    add_components(reader, d->state[i].name, d->state[i].components, *names, &count);
+  return count;
+}
+
+static void read_measure(struct reader *reader, const struct tree *node,
+                         const char *const *names, size_t count, struct measure *measure)
+{
+  static const char *const keys[] = {"unit", "at", "formula", "doc", "arguments"};
+  static const char *const places[] = {"point", "body", "run"};
+  measure->name = node->key;
+  measure->unit = "1";
+  check_name(reader, node, true, node->key);
+  if (!check_keys(reader, node, keys, LENGTH(keys), "a measure"))
+    return;
+  const char *unit = read_unit(reader, node, "unit", true);
+  measure->unit = unit ? unit : "1";
+  measure->doc = read_text(reader, node, "doc", true);
+  measure->formula = read_text(reader, node, "formula", false);
+  const char *at = read_text(reader, node, "at", true);
+  bool known = !at;
+  for (size_t i = 0; at && i < LENGTH(places); i++)
+    if (strcmp(at, places[i]) == 0) {
+      measure->at = (enum measure_at)i;
+      known = true;
+    }
+  if (!known)
+    fault_unknown(reader, tree_get(node, "at"), false, places, LENGTH(places),
+                  "'%s' is no place of a measure", at);
+  if (measure->formula)
+    check_expression(reader, tree_get(node, "formula"), measure->formula, names, count);
+  measure->arguments =
+      read_parameters(reader, tree_get(node, "arguments"), false, &measure->argument);
+}
+
+static void read_measures(struct reader *reader, const struct tree *node)
+{
+  struct descriptor *d = reader->descriptor;
+  if (!node)
+    return;
+  if (node->kind != TREE_MAPPING) {
+    fault(reader, node, "{name: {unit: Pa, at: point, doc: ...}}", "'measures' is no mapping");
+    return;
+  }
+  const char **names;
+  size_t count = measurable_names(reader, &names);
+  d->measure = reader_keep(reader, node->children, sizeof *d->measure);
+  for (size_t i = 0; i < node->children; i++)
+    read_measure(reader, node->child[i], names, count, &d->measure[d->measures++]);
+}
+
+static void read_axis(struct reader *reader, const struct tree *node)
+{
+  static const char *const keys[] = {"name", "unit"};
+  struct descriptor *d = reader->descriptor;
+  if (!node || !check_keys(reader, node, keys, LENGTH(keys), "'axis'"))
+    return;
+  const char *name = read_text(reader, node, "name", true);
+  const char *unit = read_unit(reader, node, "unit", true);
+  d->axis = name ? name : d->axis;
+  d->axis_unit = unit ? unit : d->axis_unit;
+}
+
+void read_services(struct reader *reader, const struct tree *root)
+{
+  struct descriptor *d = reader->descriptor;
+  d->require = read_texts(reader, tree_get(root, "requires"), "requires", &d->requirements);
+  d->provide = read_texts(reader, tree_get(root, "provides"), "provides", &d->provisions);
+  d->phase = read_texts(reader, tree_get(root, "phases"), "phases", &d->phases);
+  if (d->kind == GAMUT_KIND_SOLVER) {
+    d->axis = "time";
+    d->axis_unit = "s";
+  }
+  read_axis(reader, tree_get(root, "axis"));
+  read_measures(reader, tree_get(root, "measures"));
+}

@@ -1,0 +1,51 @@
+#include "field/vocabulary.h"
+
+#include <assert.h>
+#include <string.h>
+
+static const struct vocable vocabulary[] = {
+#define VOCABULARY_ENTRY(name, where, components, unit, meaning)                                   \
+  {#name, where, components, unit, meaning},
+    VOCABULARY(VOCABULARY_ENTRY)
+#undef VOCABULARY_ENTRY
+};
+
+enum { VOCABLES = sizeof(vocabulary) / sizeof(vocabulary[0]) };
+
+const struct vocable *vocabulary_find(const char *name)
+{
+  for (size_t i = 0; i < VOCABLES; i++)
+    if (strcmp(vocabulary[i].name, name) == 0)
+      return &vocabulary[i];
+  return NULL;
+}
+
+const struct vocable *vocabulary_at(size_t index)
+{
+  return index < VOCABLES ? &vocabulary[index] : NULL;
+}
+
+const char *component_name(unsigned components, unsigned k)
+{
+  static const char *const vector[] = {"x", "y", "z"};
+  static const char *const symmetric[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
+  static const char *const full[] = {"xx", "xy", "xz", "yx", "yy", "yz", "zx", "zy", "zz"};
+  static const char *const number[] = {"0",  "1",  "2",  "3",  "4",  "5",  "6",  "7",
+                                       "8",  "9",  "10", "11", "12", "13", "14", "15",
+                                       "16", "17", "18", "19", "20", "21", "22", "23",
+                                       "24", "25", "26", "27", "28", "29", "30", "31"};
+  assert(k < components && components <= VOCABULARY_COMPONENTS_MAX);
+  switch (components) {
+  case 1:
+    return "";
+  case 2:
+  case 3:
+    return vector[k];
+  case 6:
+    return symmetric[k];
+  case 9:
+    return full[k];
+  default:
+    return number[k];
+  }
+}
