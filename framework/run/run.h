@@ -2,6 +2,7 @@
 #ifndef GAMUT_RUN_ROOM_H
 #define GAMUT_RUN_ROOM_H
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -19,6 +20,10 @@ struct run_options {
   /* Called about ten times a second on a terminal and at every tenth of the run elsewhere; null: silent. */
   void (*progress)(void *, double done, double time, uint64_t step, double rate);
   void *progress_self;
+  /* Null, or becomes nonzero when the user wants out: the step is finished, the last frame is written
+   * and run_march returns GAMUT_STOPPED without an error in the trace; the summary then says
+   * "status": "interrupted". */
+  const volatile sig_atomic_t *stop;
 };
 
 struct gamut_run;
