@@ -1,0 +1,101 @@
+#include "quantity/quantity.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "field/vocabulary.h"
+
+enum { SAMPLES_BY_DEFAULT = 500 };
+
+/* Multiples of `every` and the end differ by rounding; closer than this share of `every` they are one. */
+static const double same_sample = 1e-6;
+
+/* "velocity_y" has the unit of the field "velocity". */
+static const char *field_unit(const char *name)
+{
+  const struct vocable *whole = vocabulary_find(name);
+  if (whole)
+    return whole->unit;
+  const char *end = strrchr(name, '_');
+  size_t length = end ? (size_t)(end - name) : 0;
+  for (size_t i = 0; length && vocabulary_at(i); ++i) {
+    const struct vocable *entry = vocabulary_at(i);
+    if (strlen(entry->name) == length && strncmp(entry->name, name, length) == 0)
+      return entry->unit;
+  }
+  return "1";
+}
+
+static const char *quantity_unit(const struct quantity *quantity)
+{
+  if (quantity->measure && quantity->measure->unit)
+    return quantity->measure->unit;
+  return quantity->field ? field_unit(quantity->field) : "1";
+}
+
+struct history *history_new(const struct quantity *quantity, double end)
+{
+  assert(quantity && end >= 0);
+  struct history *h = calloc(1, sizeof *h);
+  if (!h)
+    return NULL;
+  h->quantity = quantity;
+  h->unit = quantity_unit(quantity);
+  h->axis = "time";
+  h->axis_unit = "s";
+  h->every = quantity->every > 0 ? quantity->every : end / SAMPLES_BY_DEFAULT;
+  double samples = h->every > 0 ? ceil(end / h->every) + 3 : 3;
+  if (samples < (double)(PTRDIFF_MAX / (ptrdiff_t)sizeof(double))) {
+    h->capacity = (size_t)samples;
+    h->time = malloc(h->capacity * sizeof *h->time);
+    h->value = malloc(h->capacity * sizeof *h->value);
+  }
+  if (!h->time || !h->value) {
+    history_free(h);
+    return NULL;
+  }
+  return h;
+}
+
+void history_free(struct history *h)
+{
+  if (!h)
+    return;
+  free(h->time);
+  free(h->value);
+  free(h);
+}
+
+static void sample(struct history *h, double time, double value)
+{
+  if (h->count == h->capacity)
+    return; /* a run that goes past its end has no place for more */
+  h->time[h->count] = time;
+  h->value[h->count] = value;
+  ++h->count;
+}
+
+void history_tell(struct history *h, double time, double value, bool final)
+{
+  if (!h->has_last) {
+    sample(h, time, value);
+  } else if (h->every > 0 && time > h->last_time) {
+    double slope = (value - h->last_value) / (time - h->last_time);
+    double tolerance = same_sample * h->every;
+    for (;;) {
+      double next = (floor(h->time[h->count - 1] / h->every + 0.5) + 1) * h->every;
+      /* the last place is kept for the end */
+      if (next > time + (final ? -tolerance : 0) || h->count + 1 >= h->capacity)
+        break;
+      sample(h, next, next >= time ? value : h->last_value + slope * (next - h->last_time));
+    }
+  }
+  if (final && h->has_last && time > h->time[h->count - 1])
+    sample(h, time, value);
+  h->last_time = time;
+  h->last_value = value;
+  h->has_last = true;
+}
