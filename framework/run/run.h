@@ -16,7 +16,6 @@
 
 struct run_options {
   int threads;                   /* 0: what OpenMP says */
-  struct store *store;           /* null: nothing written */
   /* Called about ten times a second on a terminal and at every tenth of the run elsewhere; null: silent. */
   void (*progress)(void *, double done, double time, uint64_t step, double rate);
   void *progress_self;
@@ -31,6 +30,9 @@ struct gamut_run;
 gamut_status run_new(struct scene *, struct registry *, const struct run_options *, struct trace *,
                      struct gamut_run **);
 void run_free(struct gamut_run *);
+/* Where frames go; before run_march (borrowed). Without it nothing is written. It comes after run_new
+ * so that a scene whose plugins fail leaves nothing on the disk. */
+void run_record(struct gamut_run *, struct store *);
 /* From start to end of the axis. On a failure the last state is written as a frame where a store is
  * open. */
 gamut_status run_march(struct gamut_run *, struct trace *);
