@@ -1,0 +1,148 @@
+#include <errno.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "command/scene_arguments.h"
+#include "report/report.h"
+#include "run/run.h"
+#include "store/store.h"
+
+/* Which signal asked for the end of the run; a handler may touch nothing else. */
+static volatile sig_atomic_t interrupted;
+
+static void on_signal(int number)
+{
+  interrupted = number;
+}
+
+static void catch_signals(void)
+{
+  struct sigaction action = {.sa_handler = on_signal};
+  action.sa_flags = (int)SA_RESETHAND; /* a second Ctrl-C ends at once */
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, NULL);
+  sigaction(SIGTERM, &action, NULL);
+  /* A run of hours does not end because somebody closed a pager. */
+  signal(SIGPIPE, SIG_IGN);
+}
+
+/* "inputs/taylor_bar.yaml" gives "taylor_bar-results" in the current folder. */
+static char *standard_folder(const char *scene)
+{
+  const char *slash = strrchr(scene, '/');
+  const char *base = slash ? slash + 1 : scene;
+  const char *dot = strrchr(base, '.');
+  size_t length = dot && dot > base ? (size_t)(dot - base) : strlen(base);
+  char *folder = malloc(length + sizeof "-results");
+  if (folder)
+    sprintf(folder, "%.*s-results", (int)length, base);
+  return folder;
+}
+
+/* What the run goes along, for the estimate of the time left. */
+static struct progress *make_progress(const struct scene *scene)
+{
+  const struct value *end = values_find(scene->solver.values, "end");
+  const char *unit = scene->solver.descriptor->axis_unit;
+  return progress_new(stderr, end && end->present ? end->real : 1.0, unit ? unit : "s");
+}
+
+struct run_arguments {
+  const char *file, *folder;
+  struct option_texts set;
+  int threads;
+  bool force, json;
+};
+
+static gamut_status write_results(struct gamut_run *run, struct store *store, gamut_status marched,
+                                  const struct run_arguments *arguments, struct command *command)
+{
+  gamut_status status = GAMUT_OK;
+  size_t count;
+  struct history *const *history = run_histories(run, &count);
+  char *summary = run_summary(run, marched, command->registry);
+  if (!summary)
+    return trace_fail(command->trace, GAMUT_INTERNAL, "out of memory");
+  TRY(store_histories(store, history, count, command->trace));
+  TRY(store_summary(store, summary, command->trace));
+  if (arguments->json) {
+    puts(summary);
+  } else {
+    report_summary(summary, stdout);
+    printf("results in %s\n", store_folder(store));
+  }
+done:
+  free(summary);
+  return status;
+}
+
+static gamut_status run_scene(struct command *command, const struct run_arguments *arguments)
+{
+  gamut_status status = GAMUT_OK, marched = GAMUT_OK;
+  struct scene *scene = NULL;
+  struct gamut_run *run = NULL;
+  struct store *store = NULL;
+  struct progress *progress = NULL;
+  struct run_options options = {.threads = arguments->threads, .stop = &interrupted};
+  char *folder = arguments->folder ? strdup(arguments->folder) : standard_folder(arguments->file);
+  TRY(scene_from_arguments(command, arguments->file, &arguments->set, &scene));
+  if (!scene->solver.descriptor) {
+    status = trace_fail(command->trace, GAMUT_SCENE,
+                        "%s has no solver: it is a card for other scenes, not a run",
+                        arguments->file);
+    goto done;
+  }
+  progress = make_progress(scene);
+  options.progress = progress_tell;
+  options.progress_self = progress;
+  TRY(run_new(scene, command->registry, &options, command->trace, &run));
+  TRY(store_open(folder, arguments->force, command->trace, &store));
+  run_record(run, store);
+  TRY(store_scene(store, scene->tree, command->trace));
+  trace_print(command->trace, stderr);
+  catch_signals();
+  marched = run_march(run, command->trace);
+  progress_free(progress);
+  progress = NULL;
+  status = write_results(run, store, marched, arguments, command);
+  if (marched != GAMUT_OK)
+    status = marched;
+done:
+  progress_free(progress);
+  run_free(run);
+  store_close(store);
+  scene_free(scene);
+  free(folder);
+  return status;
+}
+
+/* Ends as a program does that the signal has killed, so that shells and make see what happened. */
+static gamut_status end_by_signal(struct command *command)
+{
+  trace_note(command->trace, "interrupted; what was computed until then is in the results");
+  trace_print(command->trace, stderr);
+  fflush(stdout);
+  signal(interrupted, SIG_DFL);
+  raise(interrupted);
+  return GAMUT_INTERNAL;
+}
+
+gamut_status command_run(struct command *command)
+{
+  struct run_arguments arguments = {0};
+  const struct option option[] = {{"--output", 'o', OPTION_TEXT, &arguments.folder},
+                                  {"--set", 0, OPTION_TEXTS, &arguments.set},
+                                  {"--threads", 0, OPTION_WHOLE, &arguments.threads},
+                                  {"--force", 0, OPTION_FLAG, &arguments.force},
+                                  {"--json", 0, OPTION_FLAG, &arguments.json}};
+  gamut_status status = GAMUT_OK;
+  TRY(options_read(command, option, sizeof option / sizeof option[0], &arguments.file, 1, 1, NULL));
+  status = run_scene(command, &arguments);
+  if (status == GAMUT_STOPPED && interrupted)
+    status = end_by_signal(command);
+done:
+  free(arguments.set.text);
+  return status;
+}
