@@ -20,7 +20,6 @@ struct field {
   bool used;      /* some live task or output touches it */
   bool history;   /* keeps a begin and an end value */
   bool stored;    /* has arrays; otherwise it lives in a thread's scratch during a sweep */
-  bool cleared;   /* cleared at the start of each chunk (somebody adds) */
 };
 
 /* All fields of a run. */
@@ -80,12 +79,25 @@ size_t set_find(const struct point_set *, int64_t id);
 /* The scratch and pointer tables of one thread. */
 struct lane_scratch;
 struct lane_scratch *scratch_new(struct arena *, const struct fields *, size_t chunk);
-/* Points a chunk's tables at slots first .. first + count - 1 of the set: stored fields at their
- * arrays; history fields' end at scratch; others at scratch; clears what is added to. */
-void scratch_bind(struct lane_scratch *, const struct point_set *, size_t slot, size_t count,
-                  struct gamut_chunk *chunk);
-/* Copies end values of history fields over their beginnings. */
-void scratch_commit(struct lane_scratch *, const struct point_set *, const struct gamut_chunk *);
+
+/* Where a component of a chunk's tables leads in one sweep, for one set. */
+enum source {
+  SOURCE_NONE,    /* null: nobody touches it here */
+  SOURCE_ARRAY,   /* begin and end: the stored array */
+  SOURCE_FRESH,   /* history written in this sweep: begin the stored array, end scratch */
+  SOURCE_SCRATCH, /* begin and end: scratch */
+  SOURCE_CLEARED, /* scratch, cleared at the start of each chunk because tasks add to it */
+  SOURCE_ARRAY_CLEARED, /* the same for a stored one */
+  SOURCE_ZERO,    /* zeros: read, but nobody writes it on this set */
+  SOURCE_UNIFORM  /* one value a run */
+};
+/* Points a chunk's tables at slots slot .. slot + count - 1 of the set. `source` has one entry a
+ * component; `uniform` one array a component (for SOURCE_UNIFORM). */
+void scratch_bind(struct lane_scratch *, const struct point_set *, const unsigned char *source,
+                  double *const *uniform, size_t slot, size_t count, struct gamut_chunk *chunk);
+/* Copies the end values of SOURCE_FRESH components over their beginnings. */
+void scratch_commit(const struct lane_scratch *, const unsigned char *source,
+                    const struct gamut_chunk *);
 /* Bytes of one thread's scratch. */
 size_t scratch_bytes(const struct fields *, size_t chunk);
 

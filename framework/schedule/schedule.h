@@ -19,7 +19,7 @@ struct task {
   gamut_status (*run)(void *self, const struct gamut_chunk *);
   void *self;
   size_t only_set;            /* SIZE_MAX: every set; else the set's index (material tasks) */
-  bool *on_set;               /* or null; one a set: whether the task works on it (effects) */
+  const bool *on_set;         /* borrowed; or null; one a set: whether the task works on it (effects) */
 };
 
 /* Tasks that run one after the other on a block while it is in cache; or a single GAMUT_ONCE task. */
@@ -27,6 +27,7 @@ struct sweep {
   bool once;
   struct task **open, **chunk, **close;
   size_t opens, chunks, closes;
+  unsigned char *source;      /* enum source, [set * components + component] */
 };
 
 struct schedule;
@@ -39,7 +40,7 @@ void schedule_decline(struct schedule *, const char *owner, const char *why);
 /* Somebody outside the tasks reads this field between steps (output, quantity, checkpoint). */
 void schedule_want(struct schedule *, struct field *, const char *why);
 /* Works the plan out. Errors: no provider for a field that is read, unknown phase, a cycle (named). */
-gamut_status schedule_plan(struct schedule *, struct fields *, struct trace *);
+gamut_status schedule_plan(struct schedule *, struct fields *, size_t sets, struct trace *);
 
 size_t schedule_tasks(const struct schedule *);
 const struct task *schedule_task(const struct schedule *, size_t index); /* in order, then the dead */
@@ -51,7 +52,14 @@ void schedule_declined_at(const struct schedule *, size_t index, const char **ow
 
 /* Runs one step: every sweep in order, sets and blocks in parallel, bits independent of the number of
  * threads. Returns the failure of the lowest block. */
-gamut_status schedule_step(struct schedule *, struct point_set *const *set, size_t sets,
-                           struct lane_scratch *const *scratch, int threads, size_t chunk);
+struct march {                /* what a step works on; borrowed */
+  struct point_set *const *set;
+  size_t sets;
+  struct lane_scratch *const *scratch; /* one a thread */
+  double *const *uniform;     /* one a component */
+  int threads;
+  size_t chunk;
+};
+gamut_status schedule_step(struct schedule *, const struct march *);
 
 #endif

@@ -49,7 +49,8 @@ enum gamut_severity { GAMUT_FINE = 0, GAMUT_NOTE = 1, GAMUT_WARN = 2, GAMUT_STOP
  * each, filled with the values at the beginning of the step), calls `evaluate`, and reads the results.
  * It may do so as often as its iteration needs. `lane` lists the points to evaluate (borrowed, `lanes`
  * entries, ascending); null means all. Results of other points are left as they were.
- * Statuses that the law raises are merged into the caller's block by the core after the call. */
+ * The status that a law raised in its last evaluation of a point is counted by the core under the
+ * law's own messages; the caller need not look. */
 struct gamut_strength_law {
   void (*evaluate)(const struct gamut_strength_law *law, const uint32_t *lane, size_t lanes);
   double *plastic_strain;      /* argument: equivalent plastic strain, 1 */

@@ -80,7 +80,9 @@ static inline double *gamut_end(const struct gamut_chunk *c, struct gamut_field 
 
 enum gamut_access {
   GAMUT_READ_BEGIN, /* the value at the beginning of the step (or the only one) */
-  GAMUT_READ,       /* the value at the end, after every task of this step that writes it */
+  GAMUT_READ,       /* the value at the end, after every task of this step that writes it; where all
+                       of these come in later phases, what the step before left */
+  GAMUT_READ_IF,    /* as GAMUT_READ, if somebody writes it; else the chunk's pointer is null */
   GAMUT_WRITE,      /* sets it */
   GAMUT_ADD,        /* adds to it; the core clears it before the first task that adds */
   GAMUT_READ_LAST   /* the value that the step before left (a stored field without history) */
@@ -106,6 +108,7 @@ struct gamut_task {
   const struct gamut_use *uses;
   size_t use_count;
   bool essential; /* true: always live. false: live if a live task reads what it writes */
+  bool material;  /* calls gamut update_material: the core adds what the material reads and writes */
   gamut_status (*run)(void *self, const struct gamut_chunk *chunk);
   void *self; /* borrowed */
 };
@@ -194,8 +197,8 @@ struct gamut_host {
    * stress that belongs to them. After the solver has set positions and masses. */
   gamut_status (*start_material)(struct gamut_run *, struct gamut_set *);
   /* Updates the material of a chunk: state at the end from the state at the beginning and the fields
-   * written so far. Repeatable. Any thread. For solvers that iterate on it; in others the core's own
-   * material task does it. */
+   * written so far. Repeatable. Any thread. For solvers that iterate on it (their task says `material`).
+   * For a solver whose phases include "material" the core's own task in that phase does it. */
   gamut_status (*update_material)(struct gamut_run *, const struct gamut_chunk *);
   /* Registers a task. In create only. */
   gamut_status (*task)(struct gamut_run *, const struct gamut_task *);

@@ -17,7 +17,7 @@
   /* required. Fields exist: set positions, masses, velocities; arrange; gamut start_material. */   \
   gamut_status (*start)(void *self);                                                               \
   /* required. The step to take from here: in, `*step` is the longest that the end of the run       \
-   * allows; out, the one to take (smaller or equal, positive). */                                  \
+   * allows; out, the one to take (smaller or equal); 0 ends the run here. */                                  \
   gamut_status (*next)(void *self, double *step);                                                  \
   /* optional. After the last task of a step: check what can go wrong, keep the ledger. */          \
   gamut_status (*after)(void *self);                                                               \

@@ -1,0 +1,176 @@
+#include "field/field.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Arrays begin at different offsets within a page: equal ones alias in the first-level cache. */
+enum { STAGGER = 40, STAGGERS = 12, SLACK = STAGGER * STAGGERS };
+#define PADDING UINT32_C(0x80000000)
+
+struct point_set *set_new(struct arena *arena, const char *body, size_t index, size_t material,
+                          size_t points)
+{
+  struct point_set *set = calloc(1, sizeof *set);
+  if (!set)
+    return NULL;
+  set->arena = arena;
+  set->material = material;
+  set->capacity = (points + GAMUT_LANES - 1) / GAMUT_LANES * GAMUT_LANES;
+  set->open = (struct gamut_set){.body = body, .index = index, .points = points};
+  return set;
+}
+
+static void give_arrays(struct point_set *set)
+{
+  if (set->array)
+    for (size_t k = 0; k < fields_components(set->fields); k++)
+      if (set->array[k])
+        arena_give(set->arena, set->array[k] - STAGGER * (k % STAGGERS));
+  free(set->array);
+  arena_give(set->arena, set->spare);
+  arena_give(set->arena, set->id);
+  arena_give(set->arena, set->spare_id);
+  set->array = NULL;
+  set->spare = NULL;
+  set->id = set->spare_id = NULL;
+}
+
+void set_free(struct point_set *set)
+{
+  if (!set)
+    return;
+  give_arrays(set);
+  free(set->first);
+  free(set);
+}
+
+static double *take_array(struct point_set *set, size_t component, const char *label)
+{
+  size_t offset = STAGGER * (component % STAGGERS);
+  double *array = arena_take(set->arena, label, (set->capacity + SLACK) * sizeof *array);
+  return array ? array + offset : NULL;
+}
+
+static gamut_status take_all(struct point_set *set, struct trace *trace)
+{
+  size_t components = fields_components(set->fields);
+  set->array = calloc(components ? components : 1, sizeof *set->array);
+  set->id = arena_take(set->arena, "point ids", set->capacity * sizeof *set->id);
+  set->spare_id = arena_take(set->arena, "spare array for sorting", set->capacity * sizeof *set->id);
+  set->spare = arena_take(set->arena, "spare array for sorting",
+                          (set->capacity + SLACK) * sizeof(double));
+  bool good = set->array && set->id && set->spare_id && set->spare;
+  for (size_t i = 0; good && i < fields_count(set->fields); i++) {
+    const struct field *field = fields_at(set->fields, i);
+    for (unsigned k = 0; good && field->stored && k < field->handle.components; k++) {
+      size_t component = field->handle.first + k;
+      set->array[component] = take_array(set, component, field->name);
+      good = set->array[component] != NULL;
+    }
+  }
+  set->open.id = set->id;
+  return good ? GAMUT_OK
+              : trace_fail(trace, GAMUT_INTERNAL, "no memory for %zu points of body '%s'",
+                           set->open.points, set->open.body);
+}
+
+gamut_status set_allocate(struct point_set *set, const struct fields *fields, struct trace *trace)
+{
+  set->fields = fields;
+  gamut_status status = take_all(set, trace);
+  if (status != GAMUT_OK)
+    return status;
+  for (size_t i = 0; i < set->capacity; i++)
+    set->id[i] = i < set->open.points ? (int64_t)i : -1;
+  for (size_t f = 0; f < fields_count(fields); f++) {
+    const struct field *field = fields_at(fields, f);
+    for (unsigned k = 0; field->stored && k < field->handle.components; k++)
+      for (size_t i = 0; i < set->capacity; i++)
+        set->array[field->handle.first + k][i] = field->initial;
+  }
+  return GAMUT_OK;
+}
+
+/* Room for more slots: padding may need more than the points did at first. */
+static gamut_status grow(struct point_set *set, size_t slots, struct trace *trace)
+{
+  struct point_set old = *set;
+  set->capacity = slots + slots / 8 + GAMUT_LANES;
+  gamut_status status = take_all(set, trace);
+  if (status == GAMUT_OK) {
+    size_t kept = old.open.slots > old.open.points ? old.open.slots : old.open.points;
+    memcpy(set->id, old.id, kept * sizeof *set->id);
+    for (size_t k = 0; k < fields_components(set->fields); k++)
+      if (set->array[k])
+        memcpy(set->array[k], old.array[k], kept * sizeof(double));
+  }
+  give_arrays(&old);
+  return status;
+}
+
+static void permute(struct point_set *set, size_t component, const uint32_t *source, size_t slots)
+{
+  double *restrict to = set->spare + STAGGER * (component % STAGGERS);
+  const double *restrict from = set->array[component];
+  for (size_t i = 0; i < slots; i++)
+    to[i] = from[source[i] & ~PADDING];
+  /* The array and the spare change places: every piece has room for the largest offset. */
+  double *was = set->array[component];
+  set->array[component] = to;
+  set->spare = was - STAGGER * (component % STAGGERS);
+}
+
+static gamut_status keep_blocks(struct point_set *set, const size_t *first, size_t blocks,
+                                struct trace *trace)
+{
+  if (blocks + 1 > set->blocks_capacity) {
+    size_t *grown = realloc(set->first, 2 * (blocks + 1) * sizeof *grown);
+    if (!grown)
+      return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    set->first = grown;
+    set->blocks_capacity = 2 * (blocks + 1);
+  }
+  memcpy(set->first, first, (blocks + 1) * sizeof *first);
+  set->open.first = set->first;
+  set->open.blocks = blocks;
+  return GAMUT_OK;
+}
+
+gamut_status set_arrange(struct point_set *set, const uint32_t *source, size_t slots,
+                         const size_t *first, size_t blocks, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  if (slots > set->capacity)
+    TRY(grow(set, slots, trace));
+  for (size_t k = 0; k < fields_components(set->fields); k++)
+    if (set->array[k])
+      permute(set, k, source, slots);
+  for (size_t i = 0; i < slots; i++)
+    set->spare_id[i] = source[i] & PADDING ? -1 : set->id[source[i]];
+  int64_t *was = set->id;
+  set->id = set->spare_id;
+  set->spare_id = was;
+  const struct field *mass = fields_find(set->fields, "mass");
+  if (mass && mass->stored)
+    for (size_t i = 0; i < slots; i++)
+      if (source[i] & PADDING)
+        set->array[mass->handle.first][i] = 0.0;
+  set->open.id = set->id;
+  set->open.slots = slots;
+  TRY(keep_blocks(set, first, blocks, trace));
+done:
+  return status;
+}
+
+double *set_stored(const struct point_set *set, struct gamut_field field, unsigned component)
+{
+  return set->array ? set->array[field.first + component] : NULL;
+}
+
+size_t set_find(const struct point_set *set, int64_t id)
+{
+  for (size_t i = 0; i < set->open.slots; i++)
+    if (set->id[i] == id)
+      return i;
+  return SIZE_MAX;
+}

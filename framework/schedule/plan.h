@@ -1,0 +1,43 @@
+/* The inside of a schedule, shared by the files of this room. */
+#ifndef GAMUT_SCHEDULE_PLAN_H
+#define GAMUT_SCHEDULE_PLAN_H
+
+#include "schedule/schedule.h"
+
+struct declined {
+  char *owner, *why;
+};
+
+struct want {
+  struct field *field;
+  char *why;
+};
+
+struct schedule {
+  const char *const *phase;
+  size_t phases;
+  struct task **task; /* in the order of registration, after planning in running order */
+  size_t tasks;
+  struct declined *declined;
+  size_t declines;
+  struct want *want;
+  size_t wants;
+  struct sweep *sweep;
+  size_t sweeps;
+  struct piece { size_t set, block; } *piece; /* all blocks of all sets, in order */
+  size_t pieces, piece_capacity;
+};
+
+/* live.c: marks live tasks and resolves what each reads. */
+gamut_status plan_liveness(struct schedule *, struct trace *);
+/* order.c: sorts by phase, then by who writes what others read. */
+gamut_status plan_order(struct schedule *, struct trace *);
+/* sweeps.c: joins tasks into sweeps, decides what is stored. */
+gamut_status plan_sweeps(struct schedule *, struct fields *, size_t sets, struct trace *);
+
+bool task_writes(const struct task *, const struct field *);
+bool task_on_set(const struct task *, size_t set);
+bool access_reads(enum gamut_access);
+bool access_writes(enum gamut_access);
+
+#endif

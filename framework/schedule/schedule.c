@@ -1,0 +1,200 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "schedule/plan.h"
+
+struct schedule *schedule_new(const char *const *phase, size_t phases)
+{
+  struct schedule *schedule = calloc(1, sizeof *schedule);
+  if (schedule) {
+    schedule->phase = phase;
+    schedule->phases = phases;
+  }
+  return schedule;
+}
+
+static void task_free(struct task *task)
+{
+  if (!task)
+    return;
+  free(task->name);
+  free(task->owner);
+  free(task->use);
+  free(task->why);
+  free(task);
+}
+
+void schedule_free(struct schedule *schedule)
+{
+  if (!schedule)
+    return;
+  for (size_t i = 0; i < schedule->tasks; i++)
+    task_free(schedule->task[i]);
+  for (size_t i = 0; i < schedule->declines; i++) {
+    free(schedule->declined[i].owner);
+    free(schedule->declined[i].why);
+  }
+  for (size_t i = 0; i < schedule->wants; i++)
+    free(schedule->want[i].why);
+  for (size_t i = 0; i < schedule->sweeps; i++) {
+    free(schedule->sweep[i].open);
+    free(schedule->sweep[i].source);
+  }
+  free(schedule->task);
+  free(schedule->declined);
+  free(schedule->want);
+  free(schedule->sweep);
+  free(schedule->piece);
+  free(schedule);
+}
+
+bool access_reads(enum gamut_access access)
+{
+  return access != GAMUT_WRITE && access != GAMUT_ADD;
+}
+
+bool access_writes(enum gamut_access access)
+{
+  return access == GAMUT_WRITE || access == GAMUT_ADD;
+}
+
+bool task_writes(const struct task *task, const struct field *field)
+{
+  for (size_t i = 0; i < task->uses; i++)
+    if (task->use[i].field == field && access_writes(task->use[i].access))
+      return true;
+  return false;
+}
+
+bool task_on_set(const struct task *task, size_t set)
+{
+  if (task->only_set != SIZE_MAX)
+    return task->only_set == set;
+  return !task->on_set || task->on_set[set];
+}
+
+static gamut_status find_phase(const struct schedule *schedule, const struct gamut_task *task,
+                               const char *owner, size_t *phase, struct trace *trace)
+{
+  for (*phase = 0; *phase < schedule->phases; ++*phase)
+    if (strcmp(schedule->phase[*phase], task->phase) == 0)
+      return GAMUT_OK;
+  return trace_fail(trace, GAMUT_PLUGIN,
+                    "task '%s' of %s belongs to the phase '%s', which this solver does not have",
+                    task->name, owner, task->phase);
+}
+
+static gamut_status copy_uses(struct task *to, const struct gamut_task *from,
+                              struct fields *fields, struct trace *trace)
+{
+  to->use = calloc(from->use_count ? from->use_count : 1, sizeof *to->use);
+  if (!to->use)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t i = 0; i < from->use_count; i++) {
+    struct field *field = fields_find(fields, from->uses[i].field);
+    if (!field)
+      return trace_fail(trace, GAMUT_PLUGIN, "task '%s' of %s names the field '%s', which nobody "
+                        "declares", from->name, to->owner, from->uses[i].field);
+    to->use[to->uses].field = field;
+    to->use[to->uses++].access = from->uses[i].access;
+  }
+  return GAMUT_OK;
+}
+
+gamut_status schedule_add(struct schedule *schedule, const char *owner,
+                          const struct gamut_task *task, struct fields *fields, size_t only_set,
+                          const bool *on_set, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  struct task *added = calloc(1, sizeof *added);
+  struct task **grown = realloc(schedule->task, (schedule->tasks + 1) * sizeof(*grown));
+  if (grown)
+    schedule->task = grown;
+  if (!added || !grown) {
+    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
+  added->name = strdup(task->name);
+  added->owner = strdup(owner);
+  added->extent = task->extent;
+  added->essential = task->essential;
+  added->run = task->run;
+  added->self = task->self;
+  added->only_set = only_set;
+  added->on_set = on_set;
+  TRY(find_phase(schedule, task, owner, &added->phase, trace));
+  TRY(copy_uses(added, task, fields, trace));
+  schedule->task[schedule->tasks++] = added;
+  added = NULL;
+done:
+  task_free(added);
+  return status;
+}
+
+static gamut_status add_declined(struct schedule *schedule, const char *owner, const char *why)
+{
+  struct declined *grown =
+      realloc(schedule->declined, (schedule->declines + 1) * sizeof *grown);
+  if (!grown)
+    return GAMUT_INTERNAL;
+  schedule->declined = grown;
+  grown[schedule->declines++] = (struct declined){strdup(owner), strdup(why)};
+  return GAMUT_OK;
+}
+
+void schedule_decline(struct schedule *schedule, const char *owner, const char *why)
+{
+  (void)add_declined(schedule, owner, why);
+}
+
+void schedule_want(struct schedule *schedule, struct field *field, const char *why)
+{
+  struct want *grown = realloc(schedule->want, (schedule->wants + 1) * sizeof *grown);
+  if (!grown)
+    return;
+  schedule->want = grown;
+  grown[schedule->wants++] = (struct want){field, strdup(why)};
+}
+
+gamut_status schedule_plan(struct schedule *schedule, struct fields *fields, size_t sets,
+                           struct trace *trace)
+{
+  gamut_status status;
+  TRY(plan_liveness(schedule, trace));
+  TRY(plan_order(schedule, trace));
+  TRY(plan_sweeps(schedule, fields, sets, trace));
+done:
+  return status;
+}
+
+size_t schedule_tasks(const struct schedule *schedule)
+{
+  return schedule->tasks;
+}
+
+const struct task *schedule_task(const struct schedule *schedule, size_t index)
+{
+  return schedule->task[index];
+}
+
+size_t schedule_sweeps(const struct schedule *schedule)
+{
+  return schedule->sweeps;
+}
+
+const struct sweep *schedule_sweep(const struct schedule *schedule, size_t index)
+{
+  return &schedule->sweep[index];
+}
+
+size_t schedule_declined(const struct schedule *schedule)
+{
+  return schedule->declines;
+}
+
+void schedule_declined_at(const struct schedule *schedule, size_t index, const char **owner,
+                          const char **why)
+{
+  *owner = schedule->declined[index].owner;
+  *why = schedule->declined[index].why;
+}

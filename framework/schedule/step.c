@@ -1,0 +1,110 @@
+#include <stdlib.h>
+
+#include "schedule/plan.h"
+
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+static gamut_status list_pieces(struct schedule *schedule, const struct march *march)
+{
+  size_t pieces = 0;
+  for (size_t s = 0; s < march->sets; s++)
+    pieces += march->set[s]->open.blocks;
+  if (pieces > schedule->piece_capacity) {
+    struct piece *grown = realloc(schedule->piece, 2 * pieces * sizeof *grown);
+    if (!grown)
+      return GAMUT_INTERNAL;
+    schedule->piece = grown;
+    schedule->piece_capacity = 2 * pieces;
+  }
+  schedule->pieces = 0;
+  for (size_t s = 0; s < march->sets; s++)
+    for (size_t b = 0; b < march->set[s]->open.blocks; b++)
+      schedule->piece[schedule->pieces++] = (struct piece){s, b};
+  return GAMUT_OK;
+}
+
+static gamut_status run_tasks(struct task *const *task, size_t tasks,
+                              const struct gamut_chunk *chunk)
+{
+  for (size_t i = 0; i < tasks; i++) {
+    if (!task_on_set(task[i], chunk->set->index))
+      continue;
+    gamut_status status = task[i]->run(task[i]->self, chunk);
+    if (status != GAMUT_OK)
+      return status;
+  }
+  return GAMUT_OK;
+}
+
+static gamut_status sweep_block(const struct sweep *sweep, const struct march *march,
+                                struct piece piece, size_t serial, int thread, size_t components)
+{
+  gamut_status status = GAMUT_OK;
+  struct point_set *set = march->set[piece.set];
+  struct lane_scratch *scratch = march->scratch[thread];
+  const unsigned char *source = sweep->source + piece.set * components;
+  size_t first = set->open.first[piece.block], end = set->open.first[piece.block + 1];
+  struct gamut_chunk chunk = {.set = &set->open,
+                              .block = piece.block,
+                              .serial = serial,
+                              .slot = first,
+                              .thread = thread};
+  TRY(run_tasks(sweep->open, sweep->opens, &chunk));
+  for (size_t slot = first; slot < end; slot += march->chunk) {
+    size_t count = end - slot < march->chunk ? end - slot : march->chunk;
+    scratch_bind(scratch, set, source, march->uniform, slot, count, &chunk);
+    TRY(run_tasks(sweep->chunk, sweep->chunks, &chunk));
+    scratch_commit(scratch, source, &chunk);
+  }
+  chunk.slot = first;
+  chunk.count = 0;
+  TRY(run_tasks(sweep->close, sweep->closes, &chunk));
+done:
+  return status;
+}
+
+static gamut_status run_sweep(struct schedule *schedule, const struct sweep *sweep,
+                              const struct march *march)
+{
+  size_t components = march->sets ? fields_components(march->set[0]->fields) : 0;
+  size_t failed = SIZE_MAX;
+  gamut_status failure = GAMUT_OK;
+#pragma omp parallel num_threads(march->threads)
+  {
+#ifdef _OPENMP
+    int thread = omp_get_thread_num();
+#else
+    int thread = 0;
+#endif
+#pragma omp for schedule(dynamic, 1)
+    for (size_t p = 0; p < schedule->pieces; p++) {
+      gamut_status status =
+          sweep_block(sweep, march, schedule->piece[p], p, thread, components);
+      if (status == GAMUT_OK)
+        continue;
+#pragma omp critical(gamut_failed_block)
+      if (p < failed) {
+        failed = p;
+        failure = status;
+      }
+    }
+  }
+  return failure;
+}
+
+gamut_status schedule_step(struct schedule *schedule, const struct march *march)
+{
+  gamut_status status = GAMUT_OK;
+  TRY(list_pieces(schedule, march));
+  for (size_t s = 0; s < schedule->sweeps; s++) {
+    const struct sweep *sweep = &schedule->sweep[s];
+    if (sweep->once)
+      TRY(sweep->chunk[0]->run(sweep->chunk[0]->self, NULL));
+    else
+      TRY(run_sweep(schedule, sweep, march));
+  }
+done:
+  return status;
+}
