@@ -1,0 +1,204 @@
+/* <gamut/math.h> against the long double functions of the C library: errors in ulps over wide
+ * ranges, the limits, and the same bits from a vectorised loop as from single calls. */
+#include <gamut/math.h>
+
+#include <float.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#include "../tap.h"
+
+enum { SAMPLES = 400000, LANES = 1024 };
+
+static void report(bool good, const char *what, double figure, double tolerance)
+{
+  tap_ok(good, "%s: %.3f (allowed %.3f)", what, figure, tolerance);
+}
+
+static uint64_t state = 88172645463325252u;
+static double uniform(void)
+{
+  state ^= state << 13;
+  state ^= state >> 7;
+  state ^= state << 17;
+  return (double)(state >> 11) * 0x1p-53;
+}
+static double between(double low, double high)
+{
+  return low + (high - low) * uniform();
+}
+static double any_size(double low, double high) /* uniform in the logarithm to base 2 */
+{
+  return exp2(between(low, high));
+}
+
+/* Distance of got from exact in units of the last place of exact. */
+static double ulps(double got, long double exact)
+{
+  double near = (double)exact;
+  if (isnan(near))
+    return isnan(got) ? 0 : 1e9;
+  if (isinf(near))
+    return got == near || fabs(got) == DBL_MAX ? 0 : 1e9;
+  if (isinf(got) || isnan(got))
+    return 1e9;
+  int exponent;
+  frexp(near, &exponent);
+  double unit = near == 0 || exponent < -1021 ? 0x1p-1074 : ldexp(1.0, exponent - 53);
+  return (double)(fabsl((long double)got - exact) / (long double)unit);
+}
+
+struct function {
+  const char *name;
+  double (*ours)(double);
+  long double (*exact)(long double);
+};
+static double ours_exp(double x)
+{
+  return gamut_exp(x);
+}
+static double ours_log(double x)
+{
+  return gamut_log(x);
+}
+static double ours_expm1(double x)
+{
+  return gamut_expm1(x);
+}
+static double ours_log1p(double x)
+{
+  return gamut_log1p(x);
+}
+
+static void sweep(const struct function *f, const char *range, double low, double high, int sign)
+{
+  double worst = 0, at = 0;
+  for (int i = 0; i < SAMPLES; i++) {
+    double x = sign ? sign * any_size(low, high) : between(low, high);
+    double error = ulps(f->ours(x), f->exact((long double)x));
+    if (error > worst) {
+      worst = error;
+      at = x;
+    }
+  }
+  char text[120];
+  snprintf(text, sizeof text, "%s, %s: ulps (worst at %.17g)", f->name, range, at);
+  report(worst < 1.0, text, worst, 1.0);
+}
+
+static void sweep_pow(const char *range, double x_low, double x_high, double y_low, double y_high)
+{
+  double worst = 0, at = 0, power = 0;
+  for (int i = 0; i < SAMPLES; i++) {
+    double x = any_size(x_low, x_high), y = between(y_low, y_high);
+    double error = ulps(gamut_pow(x, y), powl((long double)x, (long double)y));
+    if (error > worst) {
+      worst = error;
+      at = x;
+      power = y;
+    }
+  }
+  char text[160];
+  snprintf(text, sizeof text, "pow, %s: ulps (worst at %.17g ^ %.17g)", range, at, power);
+  report(worst < 1.0, text, worst, 1.0);
+}
+
+static bool same(double a, double b)
+{
+  return gamut_bits(a) == gamut_bits(b) || (isnan(a) && isnan(b));
+}
+
+static void limits(void)
+{
+  static const double odd[] = {
+      0.0,    -0.0,   INFINITY, -INFINITY, NAN,    1.0,     -1.0,
+      2.0,    -2.0,   3.0,      -3.0,      0.5,    -0.5,    1e308,
+      -1e308, 1e-310, -1e-310,  5e-324,    745.5,  -745.5,  709.7,
+      -746.5, 710.5,  -708.5,   0x1p53,    0x1p52, -0x1p52, 4503599627370497.0,
+      1e300,  -1e300, 1e-17};
+  const int count = (int)(sizeof odd / sizeof odd[0]);
+  double worst = 0;
+  for (int i = 0; i < count; i++) {
+    double x = odd[i];
+    const double got[] = {gamut_exp(x), gamut_log(x), gamut_expm1(x), gamut_log1p(x)};
+    const long double due[] = {expl(x), logl(x), expm1l(x), log1pl(x)};
+    for (int f = 0; f < 4; f++) {
+      double error = ulps(got[f], due[f]);
+      if (error >= 1)
+        printf("# function %d of %.17g: %.17g, not %.17Lg\n", f, x, got[f], due[f]);
+      worst = error > worst ? error : worst;
+    }
+    for (int k = 0; k < count; k++) {
+      double error = ulps(gamut_pow(x, odd[k]), powl(x, odd[k]));
+      if (error >= 1)
+        printf("# pow(%.17g, %.17g): %.17g, not %.17Lg\n", x, odd[k], gamut_pow(x, odd[k]),
+               powl(x, odd[k]));
+      worst = error > worst ? error : worst;
+    }
+  }
+  report(worst < 1, "limits: zeros, infinities, NaN, denormals, whole exponents", worst, 1);
+}
+
+static void signs(void)
+{
+  bool good = same(gamut_expm1(-0.0), -0.0) && same(gamut_log1p(-0.0), -0.0) &&
+              same(gamut_pow(-0.0, 3), -0.0) && same(gamut_pow(-0.0, -3), -INFINITY) &&
+              same(gamut_exp(-INFINITY), 0.0) && same(gamut_log(1.0), 0.0) &&
+              same(gamut_exp(0.0), 1.0) && same(gamut_pow(0.0, 0.0), 1.0);
+  report(good, "signs of zero", good ? 0 : 1, 0);
+}
+
+static void lanes(void)
+{
+  static double x[LANES], y[LANES], a[LANES], b[LANES], c[LANES], d[LANES], e[LANES];
+  for (int i = 0; i < LANES; i++) {
+    x[i] = any_size(-1074, 1023);
+    y[i] = between(-800, 800);
+  }
+  x[3] = 0, x[5] = INFINITY, x[9] = NAN, y[11] = INFINITY;
+#pragma omp simd
+  for (int i = 0; i < LANES; i++) {
+    a[i] = gamut_exp(y[i]);
+    b[i] = gamut_log(x[i]);
+    c[i] = gamut_pow(x[i], y[i] * 0.01);
+    d[i] = gamut_expm1(y[i]);
+    e[i] = gamut_log1p(x[i]);
+  }
+  int different = 0;
+  for (int i = 0; i < LANES; i++) {
+    volatile double one = x[i], two = y[i];
+    different += !same(a[i], gamut_exp(two)) || !same(b[i], gamut_log(one)) ||
+                 !same(c[i], gamut_pow(one, two * 0.01)) || !same(d[i], gamut_expm1(two)) ||
+                 !same(e[i], gamut_log1p(one));
+  }
+  report(different == 0, "the same bits in a vectorised loop and alone", different, 0);
+}
+
+int main(void)
+{
+  static const struct function exponential = {"exp", ours_exp, expl};
+  static const struct function logarithm = {"log", ours_log, logl};
+  static const struct function less_one = {"expm1", ours_expm1, expm1l};
+  static const struct function plus_one = {"log1p", ours_log1p, log1pl};
+  sweep(&exponential, "-745 to 709.8", -745, 709.8, 0);
+  sweep(&exponential, "-1 to 1", -1, 1, 0);
+  sweep(&exponential, "tiny", -1074, 0, -1);
+  sweep(&logarithm, "all sizes", -1074, 1024, 1);
+  sweep(&logarithm, "near 1", 0.5, 2, 0);
+  sweep(&logarithm, "at 1", 1 - 1e-6, 1 + 1e-6, 0);
+  sweep(&less_one, "-40 to 709.8", -40, 709.8, 0);
+  sweep(&less_one, "-2 to 2", -2, 2, 0);
+  sweep(&less_one, "tiny, negative", -1074, 0, -1);
+  sweep(&less_one, "tiny, positive", -1074, 0, 1);
+  sweep(&plus_one, "all sizes", -1074, 1024, 1);
+  sweep(&plus_one, "-1 to 3", -1, 3, 0);
+  sweep(&plus_one, "tiny, negative", -1074, -0.001, -1);
+  sweep_pow("material laws", -40, 1, 0, 4);
+  sweep_pow("near 1, large exponents", -0.001, 0.001, -1e6, 1e6);
+  sweep_pow("all sizes", -1074, 1024, -1, 1);
+  sweep_pow("wide", -300, 300, -3.4, 3.4);
+  limits();
+  signs();
+  lanes();
+  return tap_done();
+}
