@@ -1,0 +1,238 @@
+/* `gamut show`: a plugin's declaration for people. */
+#include <string.h>
+
+#include "descriptor/reader.h"
+#include "field/vocabulary.h"
+
+/* Text of several lines, each indented; blank lines at the end are left out. */
+static void put_lines(FILE *file, const char *text, const char *indent)
+{
+  size_t length = strlen(text);
+  while (length && (text[length - 1] == '\n' || text[length - 1] == ' '))
+    length--;
+  const char *end = text + length;
+  while (text < end) {
+    const char *stop = memchr(text, '\n', (size_t)(end - text));
+    if (!stop)
+      stop = end;
+    fprintf(file, "%s%.*s\n", stop > text ? indent : "", (int)(stop - text), text);
+    text = stop < end ? stop + 1 : end;
+  }
+}
+
+static void put_section(FILE *file, const char *title, const char *text)
+{
+  if (!text)
+    return;
+  fprintf(file, "\n%s\n", title);
+  put_lines(file, text, "  ");
+}
+
+static void put_names(FILE *file, const char *before, const char *const *name, size_t count)
+{
+  if (count == 0)
+    return;
+  fputs(before, file);
+  for (size_t i = 0; i < count; i++)
+    fprintf(file, "%s%s", i ? ", " : "", name[i]);
+  fputc('\n', file);
+}
+
+static void put_value(FILE *file, const struct tree *value)
+{
+  if (value->kind == TREE_SCALAR) {
+    fputs(value->text, file);
+    return;
+  }
+  bool mapping = value->kind == TREE_MAPPING;
+  fputc(mapping ? '{' : '[', file);
+  for (size_t i = 0; i < value->children; i++) {
+    fprintf(file, "%s%s%s", i ? ", " : "", mapping ? value->child[i]->key : "",
+            mapping ? ": " : "");
+    put_value(file, value->child[i]);
+  }
+  fputc(mapping ? '}' : ']', file);
+}
+
+/* "real in Pa", "vector of 1 to 3 in m", "choice of linear, quadratic" */
+static void put_type(FILE *file, const struct parameter *parameter)
+{
+  fputs(value_type_name(parameter->type), file);
+  if (parameter->type == VALUE_VECTOR) {
+    fprintf(file, " of %zu", parameter->size_min);
+    if (parameter->size_max > parameter->size_min)
+      fprintf(file, " to %zu", parameter->size_max);
+  }
+  if (parameter->unit && parameter->type != VALUE_INTEGER) {
+    if (strcmp(parameter->unit, "1") == 0)
+      fputs(", a pure number", file);
+    else
+      fprintf(file, " in %s", parameter->unit);
+  }
+  for (size_t i = 0; i < parameter->choices; i++) {
+    fputs(i ? ", " : parameter->type == VALUE_CHOICE ? " of " : " over ", file);
+    fputs(parameter->choice[i], file);
+    if (parameter->choice_unit)
+      fprintf(file, " (%s)", parameter->choice_unit[i]);
+  }
+}
+
+static void put_range(FILE *file, const char *name, const struct range *range, const char *unit,
+                      const char *indent)
+{
+  char text[160];
+  if (range->stated)
+    fprintf(file, "%s    %s: %s\n", indent, name, range_text(range, unit, text, sizeof text));
+}
+
+static void put_parameters(FILE *file, const struct parameter *parameter, size_t count,
+                           const char *indent)
+{
+  for (size_t i = 0; i < count; i++) {
+    const struct parameter *p = &parameter[i];
+    fprintf(file, "%s%s", indent, p->name);
+    if (p->symbol && strcmp(p->symbol, p->name) != 0)
+      fprintf(file, " (%s)", p->symbol);
+    fputs(": ", file);
+    put_type(file, p);
+    if (p->standard) {
+      fputs("; default ", file);
+      put_value(file, p->standard);
+    } else {
+      fputs(p->optional ? "; optional" : p->type == VALUE_GROUP ? "" : "; required", file);
+    }
+    fputs(p->random ? "; may be random\n" : "\n", file);
+    char deeper[64];
+    snprintf(deeper, sizeof deeper, "%s    ", indent);
+    if (p->doc)
+      put_lines(file, p->doc, deeper);
+    put_range(file, "physical", &p->physical, p->unit, indent);
+    put_range(file, "fit", &p->fit, p->unit, indent);
+    if (p->source)
+      fprintf(file, "%ssource: %s\n", deeper, p->source);
+    put_parameters(file, p->member, p->members, deeper);
+  }
+}
+
+static void put_parameter_section(FILE *file, const char *title, const struct parameter *parameter,
+                                  size_t count)
+{
+  if (count == 0)
+    return;
+  fprintf(file, "\n%s\n", title);
+  put_parameters(file, parameter, count, "  ");
+}
+
+static void put_rules(FILE *file, const struct descriptor *d)
+{
+  if (d->constraints)
+    fputs("\nconstraints\n", file);
+  for (size_t i = 0; i < d->constraints; i++)
+    fprintf(file, "  %s\n", d->constraint[i]);
+  if (d->givens)
+    fputs("\ngive one of these sets\n", file);
+  for (size_t i = 0; i < d->givens; i++) {
+    put_names(file, "  ", d->given[i].name, d->given[i].names);
+    for (size_t k = 0; k < d->given[i].derivations; k++)
+      fprintf(file, "    then %s = %s\n", d->given[i].derived[k], d->given[i].formula[k]);
+  }
+  if (d->variants)
+    fputs("\nvariants\n", file);
+  for (size_t i = 0; i < d->variants; i++) {
+    fprintf(file, "  %s where %s\n", d->variant[i].kernel, d->variant[i].when);
+    put_names(file, "    without ", d->variant[i].drop, d->variant[i].drops);
+  }
+}
+
+static void put_uses(FILE *file, const char *title, const struct field_use *use, size_t count)
+{
+  if (count == 0)
+    return;
+  fprintf(file, "\n%s\n", title);
+  for (size_t i = 0; i < count; i++) {
+    const struct vocable *entry = vocabulary_find(use[i].name);
+    fprintf(file, "  %s", use[i].name);
+    if (use[i].components > 1)
+      fprintf(file, "[%u]", use[i].components);
+    if (use[i].unit)
+      fprintf(file, " in %s", use[i].unit);
+    fputs(use[i].optional ? ", optional" : "", file);
+    fprintf(file, "%s%s\n", entry ? ": " : "", entry ? entry->meaning : "");
+  }
+}
+
+static void put_fields(FILE *file, const struct descriptor *d)
+{
+  put_uses(file, "inputs", d->input, d->inputs);
+  put_uses(file, "outputs", d->output, d->outputs);
+  if (d->states)
+    fputs("\nstate\n", file);
+  for (size_t i = 0; i < d->states; i++) {
+    fprintf(file, "  %s", d->state[i].name);
+    if (d->state[i].components > 1)
+      fprintf(file, "[%u]", d->state[i].components);
+    fprintf(file, " in %s, initially %g: %s\n", d->state[i].unit, d->state[i].initial,
+            d->state[i].doc ? d->state[i].doc : "");
+  }
+  put_uses(file, "laws that it calls", d->law, d->laws);
+  if (d->inverse)
+    fputs("\noffers its inverse: plastic strain from flow stress\n", file);
+  if (d->derivatives) {
+    fprintf(file, "\nfirst and second derivatives of %s\n", d->derivative_of);
+    put_names(file, "  by ", d->derivative_by, d->derivatives);
+  }
+}
+
+static void put_tasks(FILE *file, const struct descriptor *d)
+{
+  static const char *const severity[] = {"fine", "note", "warn", "stop"};
+  if (d->tasks)
+    fputs("\ntasks\n", file);
+  for (size_t i = 0; i < d->tasks; i++) {
+    fprintf(file, "  %s, in phase '%s'\n", d->task[i].kernel, d->task[i].phase);
+    put_names(file, "    reads ", d->task[i].read, d->task[i].reads);
+    put_names(file, "    writes ", d->task[i].write, d->task[i].writes);
+    put_names(file, "    adds to ", d->task[i].add, d->task[i].adds);
+  }
+  if (d->messages)
+    fputs("\nmessages\n", file);
+  for (size_t i = 0; i < d->messages; i++)
+    fprintf(file, "  %s (%s): %s\n", d->message[i].name, severity[d->message[i].severity],
+            d->message[i].text);
+}
+
+static void put_services(FILE *file, const struct descriptor *d)
+{
+  static const char *const place[] = {"point", "body", "run"};
+  put_names(file, "\nrequires ", d->require, d->requirements);
+  put_names(file, "\nprovides ", d->provide, d->provisions);
+  put_names(file, "\nphases of a step: ", d->phase, d->phases);
+  if (d->axis)
+    fprintf(file, "\nmarches in %s (%s)\n", d->axis, d->axis_unit);
+  if (d->measures)
+    fputs("\nmeasures\n", file);
+  for (size_t i = 0; i < d->measures; i++) {
+    const struct measure *m = &d->measure[i];
+    fprintf(file, "  %s in %s, per %s: %s\n", m->name, m->unit, place[m->at], m->doc);
+    if (m->formula)
+      fprintf(file, "    = %s\n", m->formula);
+    put_parameters(file, m->argument, m->arguments, "    ");
+  }
+}
+
+void descriptor_show(const struct descriptor *d, FILE *file)
+{
+  fprintf(file, "%s %s: %s\n", d->id, d->version, d->summary);
+  put_names(file, "source: ", d->source, d->sources);
+  fprintf(file, "file: %s\ninterface: %s\n", d->file, d->digest);
+  put_section(file, "formula", d->formula);
+  put_section(file, "notes", d->notes);
+  put_parameter_section(file, "parameters", d->parameter, d->parameters);
+  put_parameter_section(file, "parameters of each material", d->material_parameter,
+                        d->material_parameters);
+  put_parameter_section(file, "parameters of each body", d->body_parameter, d->body_parameters);
+  put_rules(file, d);
+  put_fields(file, d);
+  put_tasks(file, d);
+  put_services(file, d);
+}
