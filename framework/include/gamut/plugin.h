@@ -113,8 +113,8 @@ struct gamut_plugin {
 #endif
 #define GAMUT_PLUGIN_(kind_, id, ...)                                                              \
   static const struct id##_ops id##_operations = {.size = sizeof(struct id##_ops), __VA_ARGS__};   \
-  extern GAMUT_EXPORT const struct gamut_plugin id##_LTX_gamut_plugin;    \
-  GAMUT_EXPORT const struct gamut_plugin id##_LTX_gamut_plugin = {        \
+  extern GAMUT_EXPORT const struct gamut_plugin id##_LTX_gamut_plugin;                             \
+  GAMUT_EXPORT const struct gamut_plugin id##_LTX_gamut_plugin = {                                 \
       .size = sizeof(struct gamut_plugin),                                                         \
       .abi = GAMUT_ABI,                                                                            \
       .kind = (kind_),                                                                             \

@@ -1,0 +1,38 @@
+"""Nothing lies in the tree that no Makefile.inc knows."""
+
+import os
+
+import tap
+
+
+def words(*paths):
+    found = set()
+    for path in paths:
+        if os.path.exists(os.path.join(tap.ROOT, path)):
+            found.update(tap.read(path).split())
+    return found
+
+
+fragments = [p for p in tap.files("framework", "plugins", "tests") if p.endswith("Makefile.inc")]
+listed = words("Makefile.am", *fragments)
+kinds = sorted({"/".join(p.split("/")[1:3]) for p in tap.files("plugins") if p.count("/") > 2})
+
+tap.check("every source of the framework is listed",
+          [p for p in tap.files("framework", suffixes=(".c",)) if p not in listed])
+tap.check("every public header is listed",
+          [p for p in tap.files("framework/include", suffixes=(".h",)) if p not in listed])
+tap.check("every source of a plugin is listed",
+          [p for p in tap.files("plugins", suffixes=(".c",)) if p not in listed])
+tap.check("every plugin is listed", [k for k in kinds if k not in listed])
+tap.check("every plugin has its descriptor and its known answers",
+          [f"{k}: no {k.split('/')[1]}{end}" for k in kinds for end in (".yaml", ".test.yaml")
+           if not os.path.exists(os.path.join(tap.ROOT, "plugins", k, k.split("/")[1] + end))])
+tap.check("every unit test is listed",
+          [p for p in tap.files("tests/unit", suffixes=(".c",))
+           if p not in listed and p[:-2] not in listed])
+tap.check("every listed file is there",
+          [w for w in sorted(listed) if w.endswith((".c", ".h", ".sh", ".py")) and "/" in w
+           and "$" not in w and w.split("/")[0] in ("framework", "plugins", "tests")
+           and "NAME" not in w and "FILE" not in w
+           and not os.path.exists(os.path.join(tap.ROOT, w))])
+tap.done()
