@@ -74,7 +74,8 @@ static bool is_repeat(const struct trace *trace, const struct message *message)
 }
 
 /* Takes the message or clears it. Without memory its words are lost, never the fact. */
-static void keep(struct trace *trace, gamut_status status, struct message *message)
+static void keep(struct trace *trace, gamut_status status, struct message *message,
+                 const struct place *place)
 {
   enum message_kind kind = message->kind;
   if (is_repeat(trace, message)) {
@@ -98,6 +99,9 @@ static void keep(struct trace *trace, gamut_status status, struct message *messa
     trace->message = grown;
     trace->room = room;
   }
+  if (place !=
+      NULL) /* last, as cutting a long line takes time that a hostile file would multiply */
+    message->excerpt = excerpt_of(place->source, place->column, place->width);
   trace->message[trace->count++] = *message;
   trace->kept[kind]++;
 }
@@ -118,10 +122,9 @@ static void record(struct trace *trace, enum message_kind kind, gamut_status sta
     message.file = shown_text(place->file, NAME_MAX_SHOWN);
     message.line = place->line;
     message.column = place->column;
-    message.excerpt = excerpt_of(place->source, place->column, place->width);
   }
   pthread_mutex_lock(&trace->lock);
-  keep(trace, status, &message);
+  keep(trace, status, &message, message.file != NULL ? place : NULL);
   pthread_mutex_unlock(&trace->lock);
 }
 
