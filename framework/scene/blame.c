@@ -1,0 +1,238 @@
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static void no_memory(void)
+{
+  fputs("gamut: no memory left\n", stderr);
+  abort();
+}
+
+void *scene_take(size_t count, size_t size)
+{
+  void *taken = calloc(count ? count : 1, size ? size : 1);
+  if (!taken)
+    no_memory();
+  return taken;
+}
+
+void *scene_keep(struct reading *reading, size_t count, size_t size)
+{
+  size_t head = (sizeof(struct scene_piece) + 15) / 16 * 16;
+  struct scene_store *store = (struct scene_store *)(void *)reading->scene;
+  struct scene_piece *piece = scene_take(1, head + count * size);
+  piece->next = store->piece;
+  store->piece = piece;
+  return (char *)piece + head;
+}
+
+char *scene_text(struct reading *reading, const char *format, ...)
+{
+  char words[WORDS_SIZE];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(words, sizeof words, format, list);
+  va_end(list);
+  char *text = scene_keep(reading, strlen(words) + 1, 1);
+  return strcpy(text, words);
+}
+
+bool has_name(const char *const *name, size_t count, const char *wanted)
+{
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(name[i], wanted) == 0)
+      return true;
+  return false;
+}
+
+/* Records a fault; `path` null: the node's own. */
+static void record(struct reading *reading, const struct tree *node, bool at_key, const char *path,
+                   const char *expected, const char *format, va_list list)
+{
+  char words[WORDS_SIZE], own[PATH_SIZE] = "";
+  const struct tree *shown = node ? node : reading->here;
+  const struct place *place = NULL;
+  vsnprintf(words, sizeof words, format, list);
+  if (shown) {
+    place = at_key || !node ? &shown->key_place : &shown->place;
+    tree_path(shown, own, sizeof own);
+  }
+  if (!path && own[0])
+    path = own;
+  trace_fail_at(reading->trace, GAMUT_SCENE, place, path, expected, "%s", words);
+  reading->faults++;
+  if (reading->first == GAMUT_OK)
+    reading->first = GAMUT_SCENE;
+}
+
+void blame_value(struct reading *reading, const struct tree *node, const char *expected,
+                 const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  record(reading, node, false, NULL, expected, format, list);
+  va_end(list);
+}
+
+void blame_key(struct reading *reading, const struct tree *node, const char *expected,
+               const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  record(reading, node, true, NULL, expected, format, list);
+  va_end(list);
+}
+
+void blame_missing(struct reading *reading, const struct tree *node, const char *path,
+                   const char *expected, const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  record(reading, node, true, path, expected, format, list);
+  va_end(list);
+}
+
+void warn_value(struct reading *reading, const struct tree *node, const char *expected,
+                const char *format, ...)
+{
+  char words[WORDS_SIZE], path[PATH_SIZE] = "";
+  const struct tree *shown = node ? node : reading->here;
+  va_list list;
+  va_start(list, format);
+  vsnprintf(words, sizeof words, format, list);
+  va_end(list);
+  if (shown)
+    tree_path(shown, path, sizeof path);
+  trace_warn_at(reading->trace, shown ? &shown->place : NULL, path[0] ? path : NULL, expected, "%s",
+                words);
+}
+
+char *list_text(const char *const *name, size_t count, char *buffer, size_t size)
+{
+  size_t length = 0;
+  buffer[0] = 0;
+  for (size_t i = 0; i < count && length < size; i++) {
+    if (size - length < 80) {
+      snprintf(buffer + length, size - length, " ...");
+      break;
+    }
+    length += (size_t)snprintf(buffer + length, size - length, "%s%s", i ? ", " : "", name[i]);
+  }
+  return buffer;
+}
+
+const char *suggest(const char *word, const char *const *known, size_t count, char *buffer,
+                    size_t size)
+{
+  const char *near = nearest(word, known, count);
+  if (near) {
+    snprintf(buffer, size, "did you mean '%s'?", near);
+    return buffer;
+  }
+  if (count == 0)
+    return NULL;
+  snprintf(buffer, size, "known: ");
+  list_text(known, count, buffer + 7, size - 7);
+  return buffer;
+}
+
+void neighbour_add(struct reading *reading, const char *where, const struct parameter *parameter,
+                   size_t parameters, const char *const *key, size_t keys)
+{
+  if (reading->neighbours < NEIGHBOURS_MAX)
+    reading->neighbour[reading->neighbours++] =
+        (struct neighbour){where, parameter, parameters, key, keys};
+}
+
+/* The key as a neighbour or a group below spells it: exactly, or the nearest. */
+static const char *elsewhere(const struct reading *reading, const char *key,
+                             const struct parameter *parameter, size_t count, bool exactly,
+                             char *where, size_t size)
+{
+  for (size_t i = 0; i < count + reading->neighbours; i++) {
+    struct neighbour n = {0};
+    if (i >= count)
+      n = reading->neighbour[i - count];
+    else if (parameter[i].type == VALUE_GROUP)
+      n = (struct neighbour){NULL, parameter[i].member, parameter[i].members, NULL, 0};
+    size_t names = n.keys + n.parameters;
+    const char **name = scene_take(names, sizeof *name);
+    for (size_t k = 0; k < names; k++)
+      name[k] = k < n.keys ? n.key[k] : n.parameter[k - n.keys].name;
+    const char *found = NULL;
+    if (exactly)
+      found = has_name(name, names, key) ? key : NULL;
+    else if (names)
+      found = nearest(key, name, names);
+    free(name);
+    if (found && n.where)
+      snprintf(where, size, "%s", n.where);
+    else if (found)
+      snprintf(where, size, "under '%s:'", parameter[i].name);
+    if (found)
+      return found;
+  }
+  return NULL;
+}
+
+void blame_unknown(struct reading *reading, const struct tree *child,
+                   const struct parameter *parameter, size_t count, const char *const *also,
+                   size_t others, const char *what)
+{
+  char expected[WORDS_SIZE], where[128], list[WORDS_SIZE - 64];
+  const char **known = scene_take(count + others, sizeof *known);
+  for (size_t i = 0; i < count + others; i++)
+    known[i] = i < others ? also[i] : parameter[i - others].name;
+  const char *found = elsewhere(reading, child->key, parameter, count, true, where, sizeof where);
+  const char *near = nearest(child->key, known, count + others);
+  if (found) {
+    snprintf(expected, sizeof expected, "'%s' belongs %s", found, where);
+  } else if (near) {
+    snprintf(expected, sizeof expected, "did you mean '%s'?", near);
+  } else {
+    found = elsewhere(reading, child->key, parameter, count, false, where, sizeof where);
+    if (found)
+      snprintf(expected, sizeof expected, "did you mean '%s' %s?", found, where);
+    else
+      snprintf(expected, sizeof expected, "known: %s",
+               list_text(known, count + others, list, sizeof list));
+  }
+  blame_key(reading, child, count + others || found ? expected : NULL, "unknown key '%s' in %s",
+            child->key, what);
+  free(known);
+}
+
+bool expect_mapping(struct reading *reading, const struct tree *node, const char *what)
+{
+  if (node->kind == TREE_MAPPING)
+    return true;
+  blame_value(reading, node, "keys with values, 'key: value'", "%s is %s where a mapping is due",
+              what,
+              node->kind == TREE_SEQUENCE ? "a list"
+              : node->text[0]             ? "a plain value"
+                                          : "empty");
+  return false;
+}
+
+void expect_keys(struct reading *reading, const struct tree *node, const char *const *known,
+                 size_t count, const char *what)
+{
+  for (size_t i = 0; i < node->children; i++) {
+    if (!has_name(known, count, node->child[i]->key))
+      blame_unknown(reading, node->child[i], NULL, 0, known, count, what);
+  }
+}
+
+bool expect_name(struct reading *reading, const struct tree *node, const char *what)
+{
+  bool fine = node->key[0] && strlen(node->key) < 64;
+  for (const char *c = node->key; *c && fine; c++)
+    fine = isalnum((unsigned char)*c) || *c == '_' || *c == '-';
+  if (!fine)
+    blame_key(reading, node, "letters, digits, '_' and '-', at most 63 of them",
+              "'%s' cannot be the name of %s", node->key, what);
+  return fine;
+}

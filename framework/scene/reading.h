@@ -1,0 +1,152 @@
+/* Inside the scene room: what its readers share while one scene is read. */
+#ifndef GAMUT_SCENE_READING_H
+#define GAMUT_SCENE_READING_H
+
+#include "scene/scene.h"
+
+#define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
+enum { PATH_SIZE = 512, WORDS_SIZE = 768 };
+
+/* Memory that lives as long as the scene; freed in one go. */
+struct scene_piece {
+  struct scene_piece *next;
+};
+struct scene_store {
+  struct scene shown; /* must stand first: the two pointers are one */
+  struct scene_piece *piece;
+};
+
+/* Keys that stand one level up, down or aside: a key in the wrong place is sent there. */
+struct neighbour {
+  const char *where; /* "under 'strength:'" */
+  const struct parameter *parameter;
+  size_t parameters;
+  const char *const *key;
+  size_t keys;
+};
+enum { NEIGHBOURS_MAX = 8 };
+
+struct reading {
+  const struct units *units;
+  struct trace *trace;
+  const struct registry *registry; /* null outside scene_read; so is the scene */
+  struct scene *scene;
+  const struct tree *here;         /* stands in where a value has no node */
+  const char *const *body;         /* names of the bodies; null: not checked */
+  size_t bodies;
+  unsigned axes;                   /* of the geometry; 0: the solver has none */
+  bool axisymmetric;
+  bool random;                     /* some value is random */
+  size_t faults;
+  gamut_status first;              /* status of the first fault */
+  struct neighbour neighbour[NEIGHBOURS_MAX];
+  size_t neighbours;
+};
+
+/* Zeroed memory. A scene takes little: where there is none left, the program ends. */
+void *scene_take(size_t count, size_t size);         /* freed by its owner */
+void *scene_keep(struct reading *, size_t count, size_t size); /* freed with the scene */
+char *scene_text(struct reading *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* ---- blame.c: faults in words. `expected` may be null. ------------------------------------------ */
+
+void blame_value(struct reading *, const struct tree *, const char *expected, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+void blame_key(struct reading *, const struct tree *, const char *expected, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* The same with a path of its own, for what is not there. */
+void blame_missing(struct reading *, const struct tree *, const char *path, const char *expected,
+                   const char *format, ...) __attribute__((format(printf, 5, 6)));
+void warn_value(struct reading *, const struct tree *, const char *expected, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
+/* "did you mean 'x'?" where one is near, else "known are ..."; null if there is none. */
+const char *suggest(const char *word, const char *const *known, size_t count, char *buffer,
+                    size_t size);
+/* A list with commas: "a, b, c". Returns buffer. */
+char *list_text(const char *const *name, size_t count, char *buffer, size_t size);
+/* A key that nobody knows here; suggests the nearest, also of groups below and of neighbours. */
+void blame_unknown(struct reading *, const struct tree *child, const struct parameter *, size_t count,
+                   const char *const *also, size_t others, const char *what);
+void neighbour_add(struct reading *, const char *where, const struct parameter *, size_t parameters,
+                   const char *const *key, size_t keys);
+/* Whether a node is a mapping; else a fault that says what it should be. */
+bool expect_mapping(struct reading *, const struct tree *, const char *what);
+/* Keys of a mapping against fixed ones; unknown ones are faults. */
+void expect_keys(struct reading *, const struct tree *, const char *const *known, size_t count,
+                 const char *what);
+/* Names of materials, bodies, effects and quantities are parts of paths. */
+bool expect_name(struct reading *, const struct tree *, const char *what);
+bool has_name(const char *const *name, size_t count, const char *wanted);
+
+/* ---- one value ------------------------------------------------------------------------------- */
+
+bool unit_is_pure(const char *unit);
+/* A number in SI from a scalar; faults are told at the node. */
+bool number_read(struct reading *, const struct tree *, const char *name, const char *unit,
+                 double *value);
+/* A sequence of numbers; the array is the caller's to free, null with a fault. */
+double *vector_read(struct reading *, const struct tree *, const char *name, const char *unit,
+                    size_t least, size_t most, size_t *count);
+bool table_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
+bool random_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
+/* Physical range: a fault; range of the fit: a warning. `node` null: a derived value. */
+bool range_check(struct reading *, const struct parameter *, const struct tree *, double value);
+/* A scalar's text; null with a fault. */
+const char *text_read(struct reading *, const struct tree *, const char *name);
+/* A list of names, or one; kept with the scene. */
+const char **names_read(struct reading *, const struct tree *, const char *name, size_t *count);
+
+/* ---- values of a section --------------------------------------------------------------------- */
+
+struct section {
+  const struct descriptor *descriptor; /* of constraints and given sets; null: none */
+  const struct parameter *parameter;
+  size_t count;
+  const struct tree *node;             /* the mapping, or null */
+  const char *path;
+  const char *what;                    /* "strength 'johnson_cook'" */
+  const char *const *also;
+  size_t others;
+  bool lenient;                        /* what is required may be absent */
+};
+/* Never null. */
+struct values *section_read(struct reading *, const struct section *);
+/* Whether some given set speaks of the parameter: then it is not required by itself. */
+bool given_set_names(const struct descriptor *, const char *name);
+/* Chooses the given set, derives, checks ranges of what is derived, then the constraints. */
+void values_check(struct reading *, struct values *, const struct descriptor *, const char *what);
+
+/* ---- parts of a scene ------------------------------------------------------------------------ */
+
+/* Reads the file with what it includes, puts overrides in. */
+struct tree *include_read(struct reading *, const char *file, const struct scene_override *,
+                          size_t overrides, gamut_status *);
+/* {model: NAME, ...} or NAME. `what` is the key: "strength". Descriptor null with a fault. */
+void instance_read(struct reading *, enum gamut_kind, const char *name, const struct tree *,
+                   const char *const *also, size_t others, struct instance *);
+/* Only the descriptor that `node` names; null (no fault) if it names none that is installed. */
+const struct descriptor *instance_peek(const struct reading *, enum gamut_kind,
+                                       const struct tree *);
+void solver_read(struct reading *, const struct tree *root);
+void materials_read(struct reading *, const struct tree *root);
+void material_needs(struct reading *); /* after effects: parameters that they ask of materials */
+void bodies_read(struct reading *, const struct tree *root);
+bool shape_read(struct reading *, const struct tree *, struct shape *);
+void bodies_check(struct reading *); /* overlaps, domain, cell */
+void effects_read(struct reading *, const struct tree *root);
+void quantities_read(struct reading *, const struct tree *root);
+bool reduction_read(struct reading *, const struct tree *, const char *unit, struct reduction *);
+void outputs_read(struct reading *, const struct tree *root);
+/* A field or component of one by name ("velocity", "velocity_y", "plastic_strain") that this scene
+ * can have: unit, or null. `component`: only what is one number a point. */
+const char *field_unit(const struct reading *, const char *name, bool component);
+/* All such names, for suggestions; allocated. */
+const char **field_names(struct reading *, bool component, size_t *count);
+const char *axis_unit(const struct reading *); /* of the solver's axis: "s" */
+
+/* True if x is in the shape and farther than `margin` from its surface. */
+bool shape_inside(const struct shape *, const double x[3], double margin);
+/* Bounds in a scene: an axisymmetric one has no negative radius. */
+void shape_extent(const struct reading *, const struct shape *, double lower[3], double upper[3]);
+
+#endif

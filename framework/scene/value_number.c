@@ -1,0 +1,137 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+bool unit_is_pure(const char *unit)
+{
+  return !unit || unit[0] == 0 || strcmp(unit, "1") == 0;
+}
+
+/* Shortened for messages: a hostile scalar may be long. */
+static const char *shortened(const char *text, char *buffer, size_t size)
+{
+  if (strlen(text) < size)
+    return strcpy(buffer, text);
+  snprintf(buffer, size, "%.*s...", (int)size - 4, text);
+  return buffer;
+}
+
+static bool not_a_scalar(struct reading *reading, const struct tree *node, const char *name,
+                         const char *unit)
+{
+  char expected[160];
+  if (unit_is_pure(unit))
+    snprintf(expected, sizeof expected, "one number, such as 0.3");
+  else
+    snprintf(expected, sizeof expected, "one number with its unit, such as '%s'",
+             unit_example(unit));
+  blame_value(reading, node, expected, "'%s' is %s where a number is due", name,
+              node->kind == TREE_SEQUENCE ? "a vector" : "a mapping");
+  return false;
+}
+
+bool number_read(struct reading *reading, const struct tree *node, const char *name,
+                 const char *unit, double *value)
+{
+  char text[64], expected[320] = "a number, such as 0.3", due[96];
+  if (node->kind != TREE_SCALAR)
+    return not_a_scalar(reading, node, name, unit);
+  bool pure = unit_is_pure(unit);
+  const char *words = NULL;
+  shortened(node->text, text, sizeof text);
+  snprintf(due, sizeof due, "%s", pure ? "" : unit_example(unit));
+  if (!pure)
+    snprintf(expected, sizeof expected, "a number with a unit like %s, such as '%s'", unit, due);
+  enum unit_result result = unit_read(reading->units, node->text, pure ? "1" : unit, value);
+  char *after;
+  if (result == UNIT_OK && node->quoted) {
+    strtod(node->text, &after); /* quotes around a number with a unit do no harm */
+    if (*after == 0)
+      result = UNIT_NOT_A_NUMBER;
+  }
+  switch (result) {
+  case UNIT_OK:
+    return true;
+  case UNIT_NOT_A_NUMBER:
+    if (node->text[0] == 0) {
+      blame_value(reading, node, expected, "'%s' has no value", name);
+      return false;
+    }
+    words = node->quoted ? "is text in quotes, no number" : "is no number";
+    break;
+  case UNIT_NAN:
+    words = "is no finite number";
+    break;
+  case UNIT_MISSING:
+    snprintf(expected, sizeof expected, "a unit like %s is due, such as '%s'", unit, due);
+    words = "has no unit";
+    break;
+  case UNIT_UNKNOWN:
+    words = "has a unit that is not known";
+    break;
+  case UNIT_DIMENSION:
+    words = "has a unit of another dimension";
+    break;
+  case UNIT_UNWANTED:
+    snprintf(expected, sizeof expected, "a pure number, such as 0.3");
+    words = "has a unit where a pure number is due";
+    break;
+  }
+  blame_value(reading, node, expected, "%s: '%s' %s", name, text, words);
+  return false;
+}
+
+bool range_check(struct reading *reading, const struct parameter *parameter,
+                 const struct tree *node, double value)
+{
+  char range[160], words[224];
+  const char *blank = unit_is_pure(parameter->unit) ? "" : " ";
+  const char *unit = unit_is_pure(parameter->unit) ? "" : parameter->unit;
+  if (!range_holds(&parameter->physical, value)) {
+    range_text(&parameter->physical, parameter->unit, range, sizeof range);
+    snprintf(words, sizeof words, "it must be %s", range);
+    blame_value(reading, node, words, "%s = %.6g%s%s is not possible", parameter->name, value,
+                blank, unit);
+    return false;
+  }
+  if (!range_holds(&parameter->fit, value)) {
+    range_text(&parameter->fit, parameter->unit, range, sizeof range);
+    snprintf(words, sizeof words, "the fit holds for %s", range);
+    warn_value(reading, node, words, "%s = %.6g%s%s is outside the range of the fit",
+               parameter->name, value, blank, unit);
+  }
+  return true;
+}
+
+const char *text_read(struct reading *reading, const struct tree *node, const char *name)
+{
+  if (node->kind != TREE_SCALAR) {
+    blame_value(reading, node, "one text", "'%s' is %s where a text is due", name,
+                node->kind == TREE_SEQUENCE ? "a list" : "a mapping");
+    return NULL;
+  }
+  if (node->text[0] == 0) {
+    blame_value(reading, node, "one text", "'%s' has no value", name);
+    return NULL;
+  }
+  return node->text;
+}
+
+const char **names_read(struct reading *reading, const struct tree *node, const char *name,
+                        size_t *count)
+{
+  size_t items = node->kind == TREE_SEQUENCE ? node->children : 1;
+  const char **list = scene_keep(reading, items ? items : 1, sizeof *list);
+  *count = 0;
+  for (size_t i = 0; i < items; i++) {
+    const struct tree *item = node->kind == TREE_SEQUENCE ? node->child[i] : node;
+    const char *text = text_read(reading, item, name);
+    if (text && has_name(list, *count, text))
+      blame_value(reading, item, NULL, "'%s' stands twice in '%s'", text, name);
+    else if (text)
+      list[(*count)++] = text;
+  }
+  return list;
+}

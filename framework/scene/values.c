@@ -1,0 +1,270 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static bool choice_read(struct reading *reading, const struct parameter *parameter,
+                        const struct tree *node, struct value *value)
+{
+  char expected[WORDS_SIZE], list[WORDS_SIZE - 64];
+  if (node->kind != TREE_SCALAR) {
+    snprintf(expected, sizeof expected, "one of: %s",
+             list_text(parameter->choice, parameter->choices, list, sizeof list));
+    blame_value(reading, node, expected, "'%s' is %s where one word is due", parameter->name,
+                node->kind == TREE_SEQUENCE ? "a list" : "a mapping");
+    return false;
+  }
+  for (size_t i = 0; i < parameter->choices; i++)
+    if (strcmp(parameter->choice[i], node->text) == 0) {
+      value->text = parameter->choice[i];
+      value->real = (double)i;
+      return true;
+    }
+  blame_value(reading, node,
+              suggest(node->text, parameter->choice, parameter->choices, expected, sizeof expected),
+              "%s: unknown choice '%.60s'", parameter->name, node->text);
+  return false;
+}
+
+static bool boolean_read(struct reading *reading, const struct parameter *parameter,
+                         const struct tree *node, struct value *value)
+{
+  static const char *const word[] = {"false", "true", "off", "on", "no", "yes"};
+  for (size_t i = 0; i < COUNT_OF(word) && node->kind == TREE_SCALAR; i++)
+    if (strcmp(word[i], node->text) == 0) {
+      value->real = (double)(i % 2);
+      return true;
+    }
+  blame_value(reading, node, "true or false", "'%s' is neither true nor false", parameter->name);
+  return false;
+}
+
+static bool real_read(struct reading *reading, const struct parameter *parameter,
+                      const struct tree *node, struct value *value)
+{
+  if (node->kind == TREE_MAPPING)
+    return random_read(reading, parameter, node, value);
+  return number_read(reading, node, parameter->name, parameter->unit, &value->real) &&
+         range_check(reading, parameter, node, value->real);
+}
+
+static bool integer_read(struct reading *reading, const struct parameter *parameter,
+                         const struct tree *node, struct value *value)
+{
+  if (!number_read(reading, node, parameter->name, parameter->unit, &value->real))
+    return false;
+  if (value->real != nearbyint(value->real) || fabs(value->real) > 9007199254740992.) {
+    blame_value(reading, node, "a whole number", "'%s' is no whole number: '%.60s'",
+                parameter->name, node->text);
+    return false;
+  }
+  return range_check(reading, parameter, node, value->real);
+}
+
+static bool numbers_read(struct reading *reading, const struct parameter *parameter,
+                         const struct tree *node, struct value *value)
+{
+  size_t most = parameter->size_max;
+  bool spatial = reading->axes > 0 && parameter->size_min == 1 && parameter->size_max == 3;
+  if (spatial && node != parameter->standard)
+    most = reading->axes; /* a vector of space has no more components than the geometry */
+  value->number = vector_read(reading, node, parameter->name, parameter->unit,
+                              parameter->size_min, most, &value->numbers);
+  bool fine = value->number != NULL;
+  for (size_t i = 0; fine && i < value->numbers; i++)
+    fine = range_check(reading, parameter, node->child[i], value->number[i]);
+  return fine;
+}
+
+static bool body_read(struct reading *reading, const struct parameter *parameter,
+                      const struct tree *node, struct value *value)
+{
+  char expected[WORDS_SIZE];
+  value->text = text_read(reading, node, parameter->name);
+  if (!value->text || !reading->body || has_name(reading->body, reading->bodies, value->text))
+    return value->text != NULL;
+  blame_value(reading, node,
+              suggest(value->text, reading->body, reading->bodies, expected, sizeof expected),
+              "unknown body '%s'", value->text);
+  return false;
+}
+
+static bool formula_read(struct reading *reading, const struct parameter *parameter,
+                         const struct tree *node, struct value *value)
+{
+  char why[256] = "";
+  const char *text = text_read(reading, node, parameter->name);
+  if (!text)
+    return false;
+  value->expression =
+      expression_new(text, parameter->choice, parameter->choices, why, sizeof why);
+  if (!value->expression)
+    blame_value(reading, node, "arithmetic, such as '2 * x'", "cannot read '%s': %s", text, why);
+  return value->expression != NULL;
+}
+
+/* Members of a group that is not given take their defaults; a group that may be absent asks for none. */
+static bool group_read(struct reading *reading, const struct parameter *parameter,
+                       const struct tree *node, const char *path, bool lenient,
+                       struct value *value)
+{
+  char below[PATH_SIZE], what[128];
+  size_t faults = reading->faults;
+  snprintf(below, sizeof below, "%s%s%s", path, path[0] ? "." : "", parameter->name);
+  snprintf(what, sizeof what, "'%s'", parameter->name);
+  if (node && !expect_mapping(reading, node, what))
+    node = NULL;
+  struct section section = {.parameter = parameter->member, .count = parameter->members,
+                            .node = node, .path = below, .what = what, .lenient = lenient};
+  value->group = section_read(reading, &section);
+  return reading->faults == faults;
+}
+
+static bool value_read(struct reading *reading, const struct parameter *parameter,
+                       const struct tree *node, const char *path, struct value *value)
+{
+  switch (parameter->type) {
+  case VALUE_REAL:
+    return real_read(reading, parameter, node, value);
+  case VALUE_INTEGER:
+    return integer_read(reading, parameter, node, value);
+  case VALUE_BOOLEAN:
+    return boolean_read(reading, parameter, node, value);
+  case VALUE_CHOICE:
+    return choice_read(reading, parameter, node, value);
+  case VALUE_TEXT:
+    value->text = text_read(reading, node, parameter->name);
+    return value->text != NULL;
+  case VALUE_VECTOR:
+    return numbers_read(reading, parameter, node, value);
+  case VALUE_BODY:
+    return body_read(reading, parameter, node, value);
+  case VALUE_EXPRESSION:
+    return formula_read(reading, parameter, node, value);
+  case VALUE_TABLE:
+    return table_read(reading, parameter, node, value);
+  case VALUE_GROUP:
+    return group_read(reading, parameter, node, path, false, value);
+  }
+  return false;
+}
+
+static void missing(struct reading *reading, const struct section *section,
+                    const struct parameter *parameter)
+{
+  char path[PATH_SIZE], expected[WORDS_SIZE] = "";
+  snprintf(path, sizeof path, "%s%s%s", section->path, section->path[0] ? "." : "",
+           parameter->name);
+  if (parameter->type == VALUE_REAL && !unit_is_pure(parameter->unit))
+    snprintf(expected, sizeof expected, "a number with its unit, such as '%s'%s%s",
+             unit_example(parameter->unit), parameter->doc ? ": " : "",
+             parameter->doc ? parameter->doc : "");
+  else if (parameter->doc)
+    snprintf(expected, sizeof expected, "%s", parameter->doc);
+  blame_missing(reading, section->node, path, expected[0] ? expected : NULL, "'%s' is missing in %s",
+                parameter->name, section->what);
+}
+
+static void parameter_read(struct reading *reading, const struct section *section,
+                           const struct parameter *parameter, struct value *value)
+{
+  const struct tree *node = tree_get(section->node, parameter->name);
+  value->parameter = parameter;
+  value->node = node;
+  value->given = node != NULL;
+  if (!node)
+    node = parameter->standard;
+  if (node) {
+    value->present = value_read(reading, parameter, node, section->path, value);
+    return;
+  }
+  bool needed = !parameter->optional && !section->lenient;
+  if (parameter->type == VALUE_GROUP) {
+    const struct tree *here = reading->here;
+    if (section->node)
+      reading->here = section->node;
+    value->present = group_read(reading, parameter, NULL, section->path, !needed, value) && needed;
+    reading->here = here;
+    return;
+  }
+  if (needed && !given_set_names(section->descriptor, parameter->name))
+    missing(reading, section, parameter);
+}
+
+struct values *section_read(struct reading *reading, const struct section *section)
+{
+  struct values *values = scene_take(1, sizeof *values);
+  values->parameter = section->parameter;
+  values->count = section->count;
+  values->value = scene_take(section->count, sizeof *values->value);
+  values->node = section->node;
+  size_t length = strlen(section->path) + 1;
+  values->path = memcpy(scene_take(length, 1), section->path, length);
+  for (size_t i = 0; section->node && i < section->node->children; i++) {
+    struct tree *child = section->node->child[i];
+    if (!has_name(section->also, section->others, child->key) &&
+        !parameter_named(section->parameter, section->count, child->key))
+      blame_unknown(reading, child, section->parameter, section->count, section->also,
+                    section->others, section->what);
+  }
+  for (size_t i = 0; i < section->count; i++)
+    parameter_read(reading, section, &section->parameter[i], &values->value[i]);
+  if (section->descriptor)
+    values_check(reading, values, section->descriptor, section->what);
+  return values;
+}
+
+gamut_status values_read(const struct descriptor *descriptor, const struct parameter *parameter,
+                         size_t count, const struct tree *node, const char *path,
+                         const char *const *also, size_t others, const struct units *units,
+                         struct trace *trace, struct values **values)
+{
+  char what[160];
+  struct reading reading = {.units = units, .trace = trace, .here = node};
+  bool own = descriptor && parameter == descriptor->parameter;
+  *values = NULL;
+  if (descriptor)
+    snprintf(what, sizeof what, "%s '%s'", kind_name(descriptor->kind), descriptor->name);
+  else
+    snprintf(what, sizeof what, "'%s'", path);
+  if (node && !expect_mapping(&reading, node, what))
+    return GAMUT_SCENE;
+  struct section section = {own ? descriptor : NULL, parameter, count, node, path, what, also,
+                            others, false};
+  *values = section_read(&reading, &section);
+  if (reading.faults) {
+    values_free(*values);
+    *values = NULL;
+  }
+  return reading.first;
+}
+
+void values_free(struct values *values)
+{
+  if (!values)
+    return;
+  for (size_t i = 0; i < values->count; i++) {
+    struct value *value = &values->value[i];
+    free(value->random);
+    free(value->number);
+    expression_free(value->expression);
+    values_free(value->group);
+  }
+  free(values->value);
+  free(values->path);
+  free(values);
+}
+
+const struct value *values_find(const struct values *values, const char *path)
+{
+  size_t length = strcspn(path, ".");
+  for (size_t i = 0; values && i < values->count; i++) {
+    const struct value *value = &values->value[i];
+    const char *name = value->parameter->name;
+    if (strncmp(name, path, length) != 0 || name[length] != 0)
+      continue;
+    return path[length] ? values_find(value->group, path + length + 1) : value;
+  }
+  return NULL;
+}

@@ -1,0 +1,215 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static bool arithmetic(const struct parameter *parameter)
+{
+  return parameter->type == VALUE_REAL || parameter->type == VALUE_INTEGER ||
+         parameter->type == VALUE_BOOLEAN;
+}
+
+static struct value *find(struct values *values, const char *name)
+{
+  for (size_t i = 0; i < values->count; i++)
+    if (strcmp(values->parameter[i].name, name) == 0)
+      return &values->value[i];
+  return NULL;
+}
+
+/* The numbers that expressions may use, with their names. */
+struct numbers {
+  const char **name;
+  const struct value **value;
+  double *number;
+  size_t count;
+};
+
+static struct numbers numbers_of(const struct values *values)
+{
+  struct numbers n = {scene_take(values->count, sizeof *n.name),
+                      scene_take(values->count, sizeof *n.value),
+                      scene_take(values->count, sizeof *n.number), 0};
+  for (size_t i = 0; i < values->count; i++) {
+    const struct value *value = &values->value[i];
+    if (!arithmetic(&values->parameter[i]))
+      continue;
+    n.name[n.count] = values->parameter[i].name;
+    n.value[n.count] = value;
+    n.number[n.count++] = value->present ? value->real : 0;
+  }
+  return n;
+}
+
+static void numbers_free(struct numbers *n)
+{
+  free(n->name);
+  free(n->value);
+  free(n->number);
+}
+
+/* Value of an expression; false where something that it uses has no value. */
+static bool evaluate(struct reading *reading, const struct numbers *n, const char *text,
+                     const char *what, struct expression **expression, double *result)
+{
+  char why[256] = "";
+  *expression = expression_new(text, n->name, n->count, why, sizeof why);
+  if (!*expression) {
+    reading->first = reading->first ? reading->first : GAMUT_PLUGIN;
+    reading->faults++;
+    trace_fail(reading->trace, GAMUT_PLUGIN, "%s: cannot read '%s': %s", what, text, why);
+    return false;
+  }
+  for (size_t i = 0; i < n->count; i++)
+    if (expression_uses(*expression, i) && !n->value[i]->present)
+      return false;
+  *result = expression_value(*expression, n->number);
+  return true;
+}
+
+bool given_set_names(const struct descriptor *descriptor, const char *name)
+{
+  for (size_t i = 0; descriptor && i < descriptor->givens; i++)
+    if (has_name(descriptor->given[i].name, descriptor->given[i].names, name) ||
+        has_name(descriptor->given[i].derived, descriptor->given[i].derivations, name))
+      return true;
+  return false;
+}
+
+/* A set fits if it holds every member of sets that the scene gives, and the rest of it has defaults. */
+static const struct given_set *choose(struct values *values, const struct descriptor *descriptor,
+                                      size_t *given)
+{
+  *given = 0;
+  for (size_t i = 0; i < values->count; i++)
+    *given += values->value[i].given && given_set_names(descriptor, values->parameter[i].name);
+  for (size_t i = 0; i < descriptor->givens; i++) {
+    const struct given_set *set = &descriptor->given[i];
+    size_t held = 0, lacking = 0;
+    for (size_t k = 0; k < set->names; k++) {
+      const struct value *value = find(values, set->name[k]);
+      held += value && value->given;
+      lacking += value && !value->given && !value->parameter->standard;
+    }
+    if (held == *given && lacking == 0)
+      return set;
+  }
+  return NULL;
+}
+
+static void blame_sets(struct reading *reading, struct values *values,
+                       const struct descriptor *descriptor, size_t given, const char *what)
+{
+  char list[WORDS_SIZE] = "", one[WORDS_SIZE];
+  const char *names[16];
+  size_t count = 0, length = 0;
+  const struct tree *last = values->node;
+  for (size_t i = 0; i < descriptor->givens && length < sizeof list; i++) {
+    const struct given_set *set = &descriptor->given[i];
+    list_text(set->name, set->names, one, sizeof one);
+    length += (size_t)snprintf(list + length, sizeof list - length, "%s[%s]",
+                               i ? " or " : "give one of the sets ", one);
+  }
+  for (size_t i = 0; i < values->count && count < COUNT_OF(names); i++)
+    if (values->value[i].given && given_set_names(descriptor, values->parameter[i].name)) {
+      names[count++] = values->parameter[i].name;
+      last = values->value[i].node;
+    }
+  list_text(names, count, one, sizeof one);
+  if (given == 0)
+    blame_missing(reading, values->node, values->path, list, "%s lacks parameters", what);
+  else
+    blame_key(reading, last, list, "%s: '%s' %s no whole set", what, one,
+              given > 1 ? "together are" : "alone is");
+}
+
+static void derive(struct reading *reading, struct values *values,
+                   const struct descriptor *descriptor, const char *what)
+{
+  size_t given;
+  if (descriptor->givens == 0)
+    return;
+  bool all_optional = true;
+  for (size_t i = 0; i < values->count; i++)
+    if (given_set_names(descriptor, values->parameter[i].name))
+      all_optional = all_optional && values->parameter[i].optional;
+  const struct given_set *set = choose(values, descriptor, &given);
+  if (!set) {
+    if (given || !all_optional)
+      blame_sets(reading, values, descriptor, given, what);
+    return;
+  }
+  for (size_t k = 0; k < set->derivations; k++) {
+    struct value *value = find(values, set->derived[k]);
+    struct expression *expression = NULL;
+    struct numbers n = numbers_of(values);
+    double result;
+    if (value && evaluate(reading, &n, set->formula[k], what, &expression, &result)) {
+      value->real = result;
+      value->present = range_check(reading, value->parameter, values->node, result);
+    }
+    expression_free(expression);
+    numbers_free(&n);
+  }
+}
+
+/* The numbers that a constraint compares, "T_melt = 200 K, T_room = 298 K"; and the last given one. */
+static const struct tree *compared(const struct numbers *n, const struct expression *expression,
+                                   char *list, size_t size)
+{
+  const struct tree *node = NULL;
+  size_t length = 0;
+  list[0] = 0;
+  for (size_t i = 0; i < n->count && length < size; i++) {
+    if (!expression_uses(expression, i))
+      continue;
+    const char *unit = n->value[i]->parameter->unit;
+    length += (size_t)snprintf(list + length, size - length, "%s%s = %.6g%s%s",
+                               length ? ", " : "", n->name[i], n->number[i],
+                               unit_is_pure(unit) ? "" : " ", unit_is_pure(unit) ? "" : unit);
+    if (n->value[i]->node && !node)
+      node = n->value[i]->node;
+  }
+  return node;
+}
+
+static void constrain(struct reading *reading, struct values *values,
+                      const struct descriptor *descriptor, const char *what)
+{
+  struct numbers n = numbers_of(values);
+  char list[WORDS_SIZE], expected[WORDS_SIZE];
+  for (size_t i = 0; i < descriptor->constraints; i++) {
+    struct expression *expression;
+    double holds = 1;
+    if (evaluate(reading, &n, descriptor->constraint[i], what, &expression, &holds) &&
+        !(holds != 0 && !isnan(holds))) {
+      const struct tree *node = compared(&n, expression, list, sizeof list);
+      snprintf(expected, sizeof expected, "%s asks for %s", what, descriptor->constraint[i]);
+      blame_value(reading, node ? node : values->node, expected, "%s is not possible", list);
+    }
+    expression_free(expression);
+  }
+  numbers_free(&n);
+}
+
+void values_check(struct reading *reading, struct values *values,
+                  const struct descriptor *descriptor, const char *what)
+{
+  derive(reading, values, descriptor, what);
+  constrain(reading, values, descriptor, what);
+}
+
+gamut_status values_set(struct values *values, const struct descriptor *descriptor,
+                        size_t parameter, double real, struct trace *trace)
+{
+  char what[160];
+  struct value *value = &values->value[parameter];
+  struct reading reading = {.trace = trace, .here = values->node};
+  snprintf(what, sizeof what, "%s '%s'", kind_name(descriptor->kind), descriptor->name);
+  value->real = real;
+  value->present = range_check(&reading, value->parameter, value->node, real);
+  if (value->present)
+    values_check(&reading, values, descriptor, what);
+  return reading.first;
+}
