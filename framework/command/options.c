@@ -80,7 +80,8 @@ static gamut_status option_set(struct command *command, const struct option *opt
   case OPTION_TEXT:
     *(const char **)option->target = value;
     break;
-  case OPTION_TEXTS: {
+  case OPTION_TEXTS:
+  case OPTION_PAIRS: {
     struct option_texts *texts = option->target;
     texts->text[texts->count++] = value;
     break;
@@ -101,7 +102,7 @@ static gamut_status option_set(struct command *command, const struct option *opt
 static gamut_status make_room(struct command *command, const struct option *option, size_t options)
 {
   for (size_t i = 0; i < options; i++) {
-    if (option[i].kind != OPTION_TEXTS)
+    if (option[i].kind != OPTION_TEXTS && option[i].kind != OPTION_PAIRS)
       continue;
     struct option_texts *texts = option[i].target;
     texts->text = calloc((size_t)command->argc, sizeof *texts->text);
@@ -117,10 +118,16 @@ gamut_status options_read(struct command *command, const struct option *option, 
   gamut_status status = GAMUT_OK;
   bool ended = false;
   size_t count = 0;
+  const struct option *pairs = NULL; /* the option that takes further words with '=' */
   TRY(make_room(command, option, options));
   for (int i = 1; i < command->argc; i++) {
     const char *word = command->argv[i];
     if (ended || word[0] != '-' || word[1] == 0) {
+      if (pairs && !ended && strchr(word, '=')) {
+        TRY(option_set(command, pairs, word));
+        continue;
+      }
+      pairs = NULL;
       if (count == most) {
         status = usage_fail(command, "one argument too many: '%s'", word);
         goto done;
@@ -147,6 +154,7 @@ gamut_status options_read(struct command *command, const struct option *option, 
                           value || found->kind == OPTION_FLAG ? value : command->argv[++i]);
     if (status != GAMUT_OK)
       goto done;
+    pairs = found->kind == OPTION_PAIRS ? found : NULL;
   }
   if (count < least)
     status = usage_fail(command, "something is missing after 'gamut %s'", command->argv[0]);

@@ -17,6 +17,7 @@ enum option_kind {
   OPTION_FLAG,  /* target: bool *, set to true */
   OPTION_TEXT,  /* target: const char **, the last one given counts */
   OPTION_TEXTS, /* target: struct option_texts *; the array is allocated, freed by the caller */
+  OPTION_PAIRS, /* as OPTION_TEXTS; takes the words with '=' that follow as well */
   OPTION_WHOLE  /* target: int *, a positive whole number */
 };
 
