@@ -10,6 +10,7 @@
 #include "field/field.h"
 #include "registry/registry.h"
 #include "scene/scene.h"
+#include "schedule/schedule.h"
 
 /* A kernel's operations as the core calls them. */
 typedef void (*kernel_function)(const void *block);
@@ -56,40 +57,56 @@ gamut_status bench_derivatives(struct bench *, size_t point, bool differences, d
 /* ---- a material in a run ----------------------------------------------------------------------- */
 
 struct bound_material;
+/* Declares the material's fields among `fields` and makes blocks for `threads` threads. */
 gamut_status material_new(const struct material *, struct registry *, struct arena *,
                           struct fields *, size_t chunk, int threads, struct trace *,
                           struct bound_material **);
 void material_free(struct bound_material *);
-/* What the material's task reads and writes; for the scheduler. */
+/* What the material's task reads and writes; for the scheduler. Borrowed. */
 const struct gamut_use *material_uses(const struct bound_material *, size_t *count);
-/* State at the end from the state at the beginning. Any thread. Merges statuses. */
-gamut_status material_update(struct bound_material *, const struct gamut_chunk *);
-/* Fills the initial state of all points of a set; energy from pressure where the body asks. */
-gamut_status material_start(struct bound_material *, struct point_set *, const struct gamut_body *,
-                            struct trace *);
+/* State at the end of the step from the state at its beginning. Any thread. Repeatable. */
+void material_update(struct bound_material *, const struct gamut_chunk *);
+/* Counts what the last update of this chunk flagged. Once a step and chunk. */
+void material_tally(struct bound_material *, const struct gamut_chunk *);
+/* Fills temperature and energy of a set's points from its body; energy from pressure where the body
+ * gives that (Newton on the eos at zero compression). */
+gamut_status material_initial(struct bound_material *, struct point_set *,
+                              const struct gamut_body *, struct trace *);
+/* The state that belongs to these: the elasticity's `start`. Writes the end of the chunk. */
+void material_start(struct bound_material *, const struct gamut_chunk *);
 const struct kernel *material_kernel(const struct bound_material *, enum gamut_kind);
 
-/* An effect's kernels bound the same way: one call a task. */
-struct bound_kernel;
-gamut_status bound_new(const struct kernel *const *by_material, size_t materials, struct arena *,
-                       struct fields *, int threads, struct trace *, struct bound_kernel **);
-void bound_free(struct bound_kernel *);
-gamut_status bound_call(struct bound_kernel *, size_t material, const char *task,
-                        const struct gamut_chunk *);
+/* An effect's kernels bound the same way. by_material[m] holds the kernel with the parameters of
+ * material m. */
+struct bound_effect;
+gamut_status effect_new(const struct kernel *const *by_material, size_t materials, struct arena *,
+                        struct fields *, int threads, struct trace *, struct bound_effect **);
+void effect_free(struct bound_effect *);
+/* What a task of the descriptor reads and writes. Owned by the bound effect. */
+const struct gamut_use *effect_uses(struct bound_effect *, size_t task, size_t *count);
+/* After planning: whether reads mean the beginning or the end of the step. */
+void effect_resolve(struct bound_effect *, size_t task, const struct task *);
+void effect_call(struct bound_effect *, size_t task, size_t material, const struct gamut_chunk *);
 
 /* ---- messages of points ------------------------------------------------------------------------ */
 
-/* Counts of what kernels flagged, kept per thread and summed in order. The first stop of a step (by
- * set, then point id) is kept with its point. */
-struct flags;
+/* Counts of what kernels flagged, summed over threads. */
 struct flag_report {
-  const struct descriptor *plugin; const struct message *message;
-  uint64_t count; const char *material;
+  const struct descriptor *plugin;
+  const struct message *message;
+  uint64_t count;
 };
-struct flag_stop { const struct descriptor *plugin; const struct message *message;
-                   size_t set; int64_t id; size_t slot; };
-size_t material_flags(const struct bound_material *, struct flag_report *, size_t capacity);
-/* Whether some point demanded a stop since the last call; fills the worst (lowest set, id). */
+/* A point that may not go on: the lowest by (set, id) since the last call. */
+struct flag_stop {
+  const struct descriptor *plugin;
+  const struct message *message;
+  size_t set;
+  int64_t id;
+};
+/* Report `index` with a count above zero; false past the end. */
+bool material_flag(const struct bound_material *, size_t index, struct flag_report *);
 bool material_stopped(struct bound_material *, struct flag_stop *);
+bool effect_flag(const struct bound_effect *, size_t index, struct flag_report *);
+bool effect_stopped(struct bound_effect *, struct flag_stop *);
 
 #endif

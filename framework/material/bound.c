@@ -1,0 +1,380 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "field/vocabulary.h"
+#include "material/law.h"
+
+enum { ELASTICITY, STRENGTH, EOS, ROLES, SLACK = 24 };
+
+/* What one thread needs to update a block. */
+struct seat {
+  struct image *image;
+  struct law *law[ROLES]; /* of strength and eos */
+  double *scratch;
+  double *zero, *sink;
+  struct tally tally[ROLES];
+};
+
+struct bound_material {
+  const struct material *material;
+  struct kernel *kernel[ROLES]; /* strength and eos may be null */
+  struct links links[ROLES];
+  struct gamut_use *use;
+  size_t uses;
+  struct seat *seat;
+  size_t threads, chunk;
+  struct arena *arena;
+  size_t temperature, plastic_strain; /* components that fill a law's arguments; SIZE_MAX: none */
+};
+
+/* Arguments of a law are set by its caller; only other inputs come from fields. */
+static bool is_argument(int role, const char *name)
+{
+  static const char *const strength[] = {"plastic_strain", "plastic_strain_rate", "temperature"};
+  static const char *const eos[] = {"compression", "energy"};
+  const char *const *list = role == STRENGTH ? strength : eos;
+  size_t count = role == STRENGTH ? 3 : 2;
+  for (size_t i = 0; role != ELASTICITY && i < count; i++)
+    if (strcmp(list[i], name) == 0)
+      return true;
+  return false;
+}
+
+static bool is_result(int role, const struct slot *slot)
+{
+  return role != ELASTICITY && slot->kind == SLOT_OUTPUT;
+}
+
+/* Links of a law leave out arguments and results, which live in its own rows. */
+static void drop_own_rows(const struct kernel *kernel, int role, struct links *links)
+{
+  size_t kept = 0;
+  for (size_t i = 0; i < links->count; i++) {
+    const struct slot *slot = &kernel->slot[links->link[i].slot];
+    if (!is_argument(role, slot->name) && !is_result(role, slot))
+      links->link[kept++] = links->link[i];
+  }
+  links->count = kept;
+}
+
+static void add_use(struct bound_material *bound, const char *field, enum gamut_access access)
+{
+  for (size_t i = 0; i < bound->uses; i++)
+    if (strcmp(bound->use[i].field, field) == 0 && bound->use[i].access == access)
+      return;
+  bound->use[bound->uses++] = (struct gamut_use){field, access};
+}
+
+/* A body gives every point a temperature, so it can be read though no task writes it. */
+static enum gamut_access input_access(const struct field_use *input)
+{
+  if (strcmp(input->name, "temperature") == 0)
+    return GAMUT_READ_BEGIN;
+  return input->optional ? GAMUT_READ_IF : GAMUT_READ;
+}
+
+static void collect_uses(struct bound_material *bound, int role)
+{
+  const struct descriptor *d = bound->kernel[role]->descriptor;
+  for (size_t i = 0; i < d->inputs; i++) {
+    const struct vocable *vocable = vocabulary_find(d->input[i].name);
+    bool point = !vocable || vocable->where == GAMUT_AT_POINT;
+    bool temperature = strcmp(d->input[i].name, "temperature") == 0;
+    if (point && (temperature || !is_argument(role, d->input[i].name)))
+      add_use(bound, d->input[i].name, input_access(&d->input[i]));
+  }
+  for (size_t i = 0; i < d->states; i++) {
+    add_use(bound, d->state[i].name, GAMUT_READ_BEGIN);
+    add_use(bound, d->state[i].name, GAMUT_WRITE);
+  }
+  for (size_t i = 0; role == ELASTICITY && i < d->outputs; i++)
+    add_use(bound, d->output[i].name, GAMUT_WRITE);
+}
+
+static gamut_status make_kernel(struct bound_material *bound, int role,
+                                const struct instance *instance, struct registry *registry,
+                                struct fields *fields, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  if (!instance->descriptor)
+    return GAMUT_OK;
+  TRY(kernel_new(instance, registry, bound->arena, bound->chunk, bound->material->extra,
+                 bound->material->density, trace, &bound->kernel[role]));
+  TRY(links_new(bound->kernel[role], fields, trace, &bound->links[role]));
+  drop_own_rows(bound->kernel[role], role, &bound->links[role]);
+  collect_uses(bound, role);
+done:
+  return status;
+}
+
+static bool wants_law(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->laws; i++)
+    if (strcmp(d->law[i].name, name) == 0)
+      return true;
+  return false;
+}
+
+/* Scratch rows and laws of the elasticity's image. */
+static gamut_status furnish(struct bound_material *bound, struct seat *seat)
+{
+  const struct kernel *kernel = bound->kernel[ELASTICITY];
+  size_t stride = bound->chunk + SLACK, row = 0;
+  for (size_t s = 0; s < kernel->slots; s++)
+    row += kernel->slot[s].kind == SLOT_SCRATCH;
+  seat->scratch =
+      arena_take(bound->arena, "scratch of kernels", (row + 2) * stride * sizeof(double));
+  seat->image = image_new(kernel, bound->arena, bound->chunk, "scratch of kernels");
+  if (!seat->scratch || !seat->image)
+    return GAMUT_INTERNAL;
+  seat->zero = seat->scratch;
+  seat->sink = seat->scratch + stride;
+  row = 2;
+  for (size_t s = 0; s < kernel->slots; s++) {
+    if (kernel->slot[s].kind == SLOT_SCRATCH)
+      seat->image->pointer[s] = seat->scratch + stride * row++;
+    if (kernel->slot[s].kind != SLOT_LAW)
+      continue;
+    bool strength = strcmp(kernel->slot[s].name, "strength") == 0;
+    struct law *law = seat->law[strength ? STRENGTH : EOS];
+    if (law)
+      seat->image->pointer[s] = strength ? (void *)&law->strength : (void *)&law->eos;
+  }
+  return GAMUT_OK;
+}
+
+static gamut_status make_seats(struct bound_material *bound, struct trace *trace)
+{
+  bound->seat =
+      arena_take(bound->arena, "scratch of kernels", bound->threads * sizeof *bound->seat);
+  bool good = bound->seat != NULL;
+  for (size_t t = 0; good && t < bound->threads; t++) {
+    for (int role = STRENGTH; good && role < ROLES; role++)
+      if (bound->kernel[role])
+        good = law_new(bound->kernel[role], bound->arena, bound->chunk,
+                       &bound->seat[t].law[role]) == GAMUT_OK;
+    good = good && furnish(bound, &bound->seat[t]) == GAMUT_OK;
+  }
+  return good ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+}
+
+static size_t component_or_none(const struct fields *fields, const char *name)
+{
+  const struct field *field = fields_find(fields, name);
+  return field ? field->handle.first : SIZE_MAX;
+}
+
+static gamut_status check_laws(const struct bound_material *bound, struct trace *trace)
+{
+  const struct material *m = bound->material;
+  const struct descriptor *d = m->elasticity.descriptor;
+  for (size_t i = 0; i < d->laws; i++) {
+    bool strength = strcmp(d->law[i].name, "strength") == 0;
+    if (!d->law[i].optional && !bound->kernel[strength ? STRENGTH : EOS])
+      return trace_fail_at(trace, GAMUT_SCENE, &m->node->place, m->name,
+                           "give the material one; `gamut list` shows what there is",
+                           "%s needs an `%s:`, material '%s' has none", d->id, d->law[i].name,
+                           m->name);
+  }
+  if (m->eos.descriptor && !wants_law(d, "eos"))
+    return trace_fail_at(trace, GAMUT_SCENE, &m->node->place, m->name,
+                         "leave the `eos:` out", "%s takes no eos", d->id);
+  return GAMUT_OK;
+}
+
+gamut_status material_new(const struct material *material, struct registry *registry,
+                          struct arena *arena, struct fields *fields, size_t chunk, int threads,
+                          struct trace *trace, struct bound_material **out)
+{
+  gamut_status status;
+  struct bound_material *bound = calloc(1, sizeof *bound);
+  if (!bound)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  bound->material = material;
+  bound->arena = arena;
+  bound->chunk = chunk;
+  bound->threads = (size_t)threads;
+  bound->use = calloc(256, sizeof *bound->use);
+  TRY(make_kernel(bound, ELASTICITY, &material->elasticity, registry, fields, trace));
+  TRY(make_kernel(bound, STRENGTH, &material->strength, registry, fields, trace));
+  TRY(make_kernel(bound, EOS, &material->eos, registry, fields, trace));
+  TRY(check_laws(bound, trace));
+  bound->temperature = component_or_none(fields, "temperature");
+  bound->plastic_strain = component_or_none(fields, "plastic_strain");
+  TRY(make_seats(bound, trace));
+done:
+  if (status != GAMUT_OK) {
+    material_free(bound);
+    bound = NULL;
+  }
+  *out = bound;
+  return status;
+}
+
+void material_free(struct bound_material *bound)
+{
+  if (!bound)
+    return;
+  for (size_t t = 0; bound->seat && t < bound->threads; t++) {
+    struct seat *seat = &bound->seat[t];
+    for (int role = 0; role < ROLES; role++)
+      law_free(seat->law[role], bound->arena);
+    if (seat->image)
+      arena_give(bound->arena, seat->image->status);
+    arena_give(bound->arena, seat->image);
+    arena_give(bound->arena, seat->scratch);
+  }
+  arena_give(bound->arena, bound->seat);
+  for (int role = 0; role < ROLES; role++) {
+    links_free(&bound->links[role]);
+    kernel_free(bound->kernel[role]);
+  }
+  free(bound->use);
+  free(bound);
+}
+
+const struct gamut_use *material_uses(const struct bound_material *bound, size_t *count)
+{
+  *count = bound->uses;
+  return bound->use;
+}
+
+static void fill_argument(const struct law *law, const char *name, const double *from, size_t count)
+{
+  double *row = law ? law_row(law, name) : NULL;
+  if (row && from)
+    memcpy(row, from, count * sizeof *row);
+}
+
+static void follow(struct bound_material *bound, struct seat *seat,
+                   const struct gamut_chunk *chunk)
+{
+  image_follow(seat->image, bound->links[ELASTICITY].link, bound->links[ELASTICITY].count, chunk,
+               seat->zero, seat->sink);
+  memset(seat->image->status, 0, chunk->count * sizeof *seat->image->status);
+  for (int role = STRENGTH; role < ROLES; role++) {
+    if (!seat->law[role])
+      continue;
+    image_follow(seat->law[role]->image, bound->links[role].link, bound->links[role].count, chunk,
+                 seat->zero, seat->sink);
+    law_begin(seat->law[role], chunk->count);
+  }
+  if (bound->temperature != SIZE_MAX)
+    fill_argument(seat->law[STRENGTH], "temperature", chunk->begin[bound->temperature],
+                  chunk->count);
+  if (bound->plastic_strain != SIZE_MAX)
+    fill_argument(seat->law[STRENGTH], "plastic_strain", chunk->begin[bound->plastic_strain],
+                  chunk->count);
+}
+
+void material_update(struct bound_material *bound, const struct gamut_chunk *chunk)
+{
+  struct seat *seat = &bound->seat[chunk->thread];
+  follow(bound, seat, chunk);
+  bound->kernel[ELASTICITY]->main(seat->image);
+}
+
+void material_tally(struct bound_material *bound, const struct gamut_chunk *chunk)
+{
+  struct seat *seat = &bound->seat[chunk->thread];
+  tally_block(&seat->tally[ELASTICITY], seat->image->status, chunk);
+  for (int role = STRENGTH; role < ROLES; role++)
+    if (seat->law[role])
+      tally_block(&seat->tally[role], seat->law[role]->image->status, chunk);
+}
+
+/* The end of every state is its beginning until the kernel says otherwise. */
+static void carry_state(const struct bound_material *bound, const struct gamut_chunk *chunk)
+{
+  for (int role = 0; role < ROLES; role++)
+    for (size_t i = 0; i < bound->links[role].count; i++) {
+      const struct link *link = &bound->links[role].link[i];
+      double *begin = chunk->begin[link->component], *end = chunk->end[link->component];
+      if (link->written && begin && end && begin != end)
+        memcpy(end, begin, chunk->count * sizeof *end);
+    }
+}
+
+void material_start(struct bound_material *bound, const struct gamut_chunk *chunk)
+{
+  struct seat *seat = &bound->seat[chunk->thread];
+  kernel_function start = kernel_operation(bound->kernel[ELASTICITY], 1);
+  carry_state(bound, chunk);
+  follow(bound, seat, chunk);
+  if (start)
+    start(seat->image);
+}
+
+/* Energy at which the eos gives the pressure at zero compression. */
+static gamut_status energy_of_pressure(struct bound_material *bound, const struct gamut_body *body,
+                                       double *energy, struct trace *trace)
+{
+  struct law *law = bound->seat[0].law[EOS];
+  double e = 0.0;
+  for (int i = 0; law && i < 60; i++) {
+    law_begin(law, GAMUT_LANES);
+    for (int k = 0; k < GAMUT_LANES; k++) {
+      law->eos.compression[k] = 0.0;
+      law->eos.energy[k] = e;
+    }
+    law->eos.evaluate(&law->eos, NULL, 0);
+    double miss = law->eos.pressure[0] - body->pressure, slope = law->eos.pressure_slope_energy[0];
+    if (fabs(miss) <= 1e-14 * fabs(body->pressure)) {
+      *energy = e;
+      return GAMUT_OK;
+    }
+    if (!(fabs(slope) > 0.0))
+      break;
+    e -= miss / slope;
+  }
+  return trace_fail_at(trace, GAMUT_SCENE, &body->node->place, "pressure",
+                       "give `energy:`, or an eos whose pressure depends on energy",
+                       "body '%s' cannot start at %g Pa: its eos has no energy for that",
+                       body->name, body->pressure);
+}
+
+gamut_status material_initial(struct bound_material *bound, struct point_set *set,
+                              const struct gamut_body *body, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  double energy = body->has_energy ? body->energy : 0.0;
+  if (body->has_pressure && body->pressure != 0.0)
+    TRY(energy_of_pressure(bound, body, &energy, trace));
+  const struct { const char *name; double value; } initial[] = {
+      {"temperature", body->temperature}, {"energy", energy}};
+  for (int f = 0; f < 2; f++) {
+    const struct field *field = fields_find(set->fields, initial[f].name);
+    double *array = field ? set_stored(set, field->handle, 0) : NULL;
+    for (size_t i = 0; array && i < set->open.slots; i++)
+      array[i] = initial[f].value;
+  }
+done:
+  return status;
+}
+
+const struct kernel *material_kernel(const struct bound_material *bound, enum gamut_kind kind)
+{
+  return bound->kernel[kind == GAMUT_KIND_EOS ? EOS : kind == GAMUT_KIND_STRENGTH ? STRENGTH
+                                                                                   : ELASTICITY];
+}
+
+bool material_flag(const struct bound_material *bound, size_t index, struct flag_report *report)
+{
+  for (int role = 0; role < ROLES; role++)
+    if (bound->kernel[role] &&
+        tally_report(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
+                     bound->kernel[role]->descriptor, &index, report))
+      return true;
+  return false;
+}
+
+bool material_stopped(struct bound_material *bound, struct flag_stop *stop)
+{
+  for (int role = 0; role < ROLES; role++)
+    if (bound->kernel[role] &&
+        tally_stopped(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
+                      bound->kernel[role]->descriptor, stop))
+      return true;
+  return false;
+}

@@ -1,0 +1,224 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "field/vocabulary.h"
+#include "material/image.h"
+
+enum { SLACK = 24 };
+
+struct effect_task {
+  struct gamut_use *use;
+  size_t uses;
+  struct links *links; /* one a material; `begin` is settled by effect_resolve */
+};
+
+struct effect_seat {
+  struct image **image; /* one a material */
+  double *zero, *sink;
+  struct tally tally;
+};
+
+struct bound_effect {
+  const struct kernel *const *kernel;
+  size_t materials, threads, tasks;
+  struct effect_task *task;
+  struct effect_seat *seat;
+  struct arena *arena;
+};
+
+static bool declared_state(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->states; i++)
+    if (strcmp(d->state[i].name, name) == 0)
+      return true;
+  return false;
+}
+
+static bool optional_input(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->inputs; i++)
+    if (strcmp(d->input[i].name, name) == 0)
+      return d->input[i].optional;
+  return false;
+}
+
+static bool at_point(const char *name)
+{
+  const struct vocable *vocable = vocabulary_find(name);
+  return !vocable || vocable->where == GAMUT_AT_POINT;
+}
+
+static gamut_status collect_uses(const struct descriptor *d, const struct kernel_task *from,
+                                 struct effect_task *to)
+{
+  size_t most = from->reads + 2 * from->writes + from->adds;
+  to->use = calloc(most + 1, sizeof *to->use);
+  if (!to->use)
+    return GAMUT_INTERNAL;
+  for (size_t i = 0; i < from->reads; i++)
+    if (at_point(from->read[i]) && !declared_state(d, from->read[i]))
+      to->use[to->uses++] = (struct gamut_use){
+          from->read[i], optional_input(d, from->read[i]) ? GAMUT_READ_IF : GAMUT_READ};
+  for (size_t i = 0; i < from->writes; i++) {
+    if (declared_state(d, from->write[i]))
+      to->use[to->uses++] = (struct gamut_use){from->write[i], GAMUT_READ_BEGIN};
+    to->use[to->uses++] = (struct gamut_use){from->write[i], GAMUT_WRITE};
+  }
+  for (size_t i = 0; i < from->adds; i++)
+    to->use[to->uses++] = (struct gamut_use){from->add[i], GAMUT_ADD};
+  return GAMUT_OK;
+}
+
+static gamut_status make_tasks(struct bound_effect *bound, struct fields *fields,
+                               struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  const struct descriptor *d = bound->kernel[0]->descriptor;
+  bound->tasks = d->tasks;
+  bound->task = calloc(d->tasks + 1, sizeof *bound->task);
+  if (!bound->task)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t t = 0; t < d->tasks; t++) {
+    struct effect_task *task = &bound->task[t];
+    task->links = calloc(bound->materials, sizeof *task->links);
+    if (!task->links || collect_uses(d, &d->task[t], task) != GAMUT_OK)
+      return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    for (size_t m = 0; m < bound->materials; m++)
+      TRY(links_new(bound->kernel[m], fields, trace, &task->links[m]));
+  }
+done:
+  return status;
+}
+
+static gamut_status make_seats(struct bound_effect *bound)
+{
+  static const char label[] = "scratch of effects";
+  size_t stride = GAMUT_CHUNK_MAX + SLACK;
+  bound->seat = arena_take(bound->arena, label, bound->threads * sizeof *bound->seat);
+  if (!bound->seat)
+    return GAMUT_INTERNAL;
+  for (size_t t = 0; t < bound->threads; t++) {
+    struct effect_seat *seat = &bound->seat[t];
+    const struct kernel *first = bound->kernel[0];
+    size_t rows = 2;
+    for (size_t s = 0; s < first->slots; s++)
+      rows += first->slot[s].kind == SLOT_SCRATCH;
+    seat->zero = arena_take(bound->arena, label, rows * stride * sizeof(double));
+    seat->image = arena_take(bound->arena, label, bound->materials * sizeof(*seat->image));
+    if (!seat->zero || !seat->image)
+      return GAMUT_INTERNAL;
+    seat->sink = seat->zero + stride;
+    for (size_t m = 0; m < bound->materials; m++) {
+      seat->image[m] = image_new(bound->kernel[m], bound->arena, GAMUT_CHUNK_MAX, label);
+      if (!seat->image[m])
+        return GAMUT_INTERNAL;
+      size_t row = 2;
+      for (size_t s = 0; s < first->slots; s++)
+        if (first->slot[s].kind == SLOT_SCRATCH)
+          seat->image[m]->pointer[s] = seat->zero + stride * row++;
+    }
+  }
+  return GAMUT_OK;
+}
+
+gamut_status effect_new(const struct kernel *const *by_material, size_t materials,
+                        struct arena *arena, struct fields *fields, int threads,
+                        struct trace *trace, struct bound_effect **out)
+{
+  gamut_status status;
+  struct bound_effect *bound = calloc(1, sizeof *bound);
+  if (!bound)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  *bound = (struct bound_effect){.kernel = by_material,
+                                 .materials = materials,
+                                 .threads = (size_t)threads,
+                                 .arena = arena};
+  TRY(make_tasks(bound, fields, trace));
+  if (make_seats(bound) != GAMUT_OK)
+    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+done:
+  if (status != GAMUT_OK) {
+    effect_free(bound);
+    bound = NULL;
+  }
+  *out = bound;
+  return status;
+}
+
+void effect_free(struct bound_effect *bound)
+{
+  if (!bound)
+    return;
+  for (size_t t = 0; bound->task && t < bound->tasks; t++) {
+    for (size_t m = 0; bound->task[t].links && m < bound->materials; m++)
+      links_free(&bound->task[t].links[m]);
+    free(bound->task[t].links);
+    free(bound->task[t].use);
+  }
+  free(bound->task);
+  for (size_t t = 0; bound->seat && t < bound->threads; t++) {
+    struct effect_seat *seat = &bound->seat[t];
+    for (size_t m = 0; seat->image && m < bound->materials; m++) {
+      if (seat->image[m])
+        arena_give(bound->arena, seat->image[m]->status);
+      arena_give(bound->arena, seat->image[m]);
+    }
+    arena_give(bound->arena, seat->image);
+    arena_give(bound->arena, seat->zero);
+  }
+  arena_give(bound->arena, bound->seat);
+  free(bound);
+}
+
+const struct gamut_use *effect_uses(struct bound_effect *bound, size_t task, size_t *count)
+{
+  *count = bound->task[task].uses;
+  return bound->task[task].use;
+}
+
+/* A plain input means the end of the step unless the plan says that it is not written yet by then. */
+void effect_resolve(struct bound_effect *bound, size_t task, const struct task *planned)
+{
+  for (size_t m = 0; m < bound->materials; m++) {
+    struct links *links = &bound->task[task].links[m];
+    for (size_t i = 0; i < links->count; i++) {
+      struct link *link = &links->link[i];
+      if (bound->kernel[m]->slot[link->slot].kind != SLOT_INPUT)
+        continue;
+      link->begin = false;
+      for (size_t u = 0; u < planned->uses; u++) {
+        struct gamut_field handle = planned->use[u].field->handle;
+        if (link->component >= handle.first &&
+            link->component < handle.first + handle.components)
+          link->begin |= planned->use[u].access == GAMUT_READ_LAST ||
+                         planned->use[u].access == GAMUT_READ_BEGIN;
+      }
+    }
+  }
+}
+
+void effect_call(struct bound_effect *bound, size_t task, size_t material,
+                 const struct gamut_chunk *chunk)
+{
+  struct effect_seat *seat = &bound->seat[chunk->thread];
+  const struct kernel *kernel = bound->kernel[material];
+  struct image *image = seat->image[material];
+  const struct links *links = &bound->task[task].links[material];
+  kernel_function call = kernel_named(kernel, kernel->descriptor->task[task].kernel);
+  image_follow(image, links->link, links->count, chunk, seat->zero, seat->sink);
+  memset(image->status, 0, chunk->count * sizeof *image->status);
+  call(image);
+  tally_block(&seat->tally, image->status, chunk);
+}
+
+bool effect_flag(const struct bound_effect *bound, size_t index, struct flag_report *report)
+{
+  return tally_report(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat),
+                      bound->kernel[0]->descriptor, &index, report);
+}
+
+bool effect_stopped(struct bound_effect *bound, struct flag_stop *stop)
+{
+  return tally_stopped(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat),
+                       bound->kernel[0]->descriptor, stop);
+}

@@ -1,0 +1,94 @@
+#include "material/image.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "field/vocabulary.h"
+
+struct image *image_new(const struct kernel *kernel, struct arena *arena, size_t rows,
+                        const char *label)
+{
+  struct image *image =
+      arena_take(arena, label, sizeof *image + kernel->slots * sizeof image->pointer[0]);
+  if (!image)
+    return NULL;
+  image->status = arena_take(arena, label, rows * sizeof *image->status);
+  for (size_t s = 0; s < kernel->slots; s++)
+    image->pointer[s] = kernel->uniform[s];
+  return image->status ? image : NULL;
+}
+
+void image_follow(struct image *image, const struct link *link, size_t links,
+                  const struct gamut_chunk *chunk, double *zero, double *sink)
+{
+  image->count = chunk->count;
+  for (size_t i = 0; i < links; i++) {
+    double *array = (link[i].begin ? chunk->begin : chunk->end)[link[i].component];
+    image->pointer[link[i].slot] = array ? array : link[i].written ? sink : zero;
+  }
+}
+
+struct field *slot_field(const struct descriptor *d, const struct slot *slot,
+                         struct fields *fields, struct trace *trace)
+{
+  const char *name = NULL, *unit = slot->unit, *meaning = "";
+  if (slot->kind == SLOT_INPUT)
+    name = d->input[slot->index].name;
+  else if (slot->kind == SLOT_OUTPUT)
+    name = d->output[slot->index].name;
+  else {
+    name = d->state[slot->index].name;
+    meaning = d->state[slot->index].doc ? d->state[slot->index].doc : "";
+  }
+  const struct vocable *vocable = vocabulary_find(name);
+  struct field *field =
+      fields_add(fields, vocable ? vocable->name : name, vocable ? vocable->where : GAMUT_AT_POINT,
+                 slot->components, vocable ? vocable->unit : unit,
+                 vocable ? vocable->meaning : meaning, trace);
+  bool state = slot->kind == SLOT_STATE_BEGIN || slot->kind == SLOT_STATE_END;
+  if (field && state) {
+    field->history = true;
+    field->initial = d->state[slot->index].initial;
+  }
+  return field;
+}
+
+static bool follows_chunk(const struct kernel *kernel, size_t slot)
+{
+  switch (kernel->slot[slot].kind) {
+  case SLOT_INPUT: return !kernel->uniform[slot];
+  case SLOT_OUTPUT:
+  case SLOT_STATE_BEGIN:
+  case SLOT_STATE_END: return true;
+  default: return false;
+  }
+}
+
+gamut_status links_new(const struct kernel *kernel, struct fields *fields, struct trace *trace,
+                       struct links *links)
+{
+  links->count = 0;
+  links->link = calloc(kernel->slots + 1, sizeof *links->link);
+  if (!links->link)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t s = 0; s < kernel->slots; s++) {
+    const struct slot *slot = &kernel->slot[s];
+    if (!follows_chunk(kernel, s))
+      continue;
+    const struct field *field = slot_field(kernel->descriptor, slot, fields, trace);
+    if (!field)
+      return GAMUT_PLUGIN;
+    links->link[links->count++] =
+        (struct link){.slot = s,
+                      .component = field->handle.first + slot->component,
+                      .begin = slot->kind == SLOT_STATE_BEGIN || slot->kind == SLOT_INPUT,
+                      .written = slot->kind == SLOT_OUTPUT || slot->kind == SLOT_STATE_END};
+  }
+  return GAMUT_OK;
+}
+
+void links_free(struct links *links)
+{
+  free(links->link);
+  *links = (struct links){NULL, 0};
+}

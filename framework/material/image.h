@@ -1,0 +1,70 @@
+/* The memory image of a block struct, and how its pointers are led to the arrays of a chunk. */
+#ifndef GAMUT_IMAGE_H
+#define GAMUT_IMAGE_H
+
+#include <gamut/plugin.h>
+
+#include "descriptor/descriptor.h"
+#include "field/field.h"
+#include "material/material.h"
+
+/* Every generated block struct has this shape. */
+struct image {
+  size_t count;
+  int64_t *status;
+  void *pointer[];
+};
+
+/* A pointer of the image that follows the chunk. */
+struct link {
+  size_t slot;
+  size_t component; /* of the run's fields */
+  bool begin;       /* leads to the value at the beginning of the step */
+  bool written;     /* the kernel writes there: a null chunk pointer means a sink, not zeros */
+};
+
+struct kernel {
+  const struct instance *instance;
+  const struct descriptor *descriptor;
+  const struct gamut_plugin *plugin;
+  struct slot *slot;
+  size_t slots;
+  struct arena *arena;
+  double **uniform; /* one a slot: array of equal values, or null */
+  kernel_function main;
+  char variant[160];
+};
+
+struct image *image_new(const struct kernel *, struct arena *, size_t rows, const char *label);
+/* Points the linked slots at the chunk. zero and sink are arrays of the chunk's length. */
+void image_follow(struct image *, const struct link *, size_t links, const struct gamut_chunk *,
+                  double *zero, double *sink);
+
+/* Links of the slots of one kind (input, output, state) to fields, which are declared on the way. */
+struct links {
+  struct link *link;
+  size_t count;
+};
+gamut_status links_new(const struct kernel *, struct fields *, struct trace *, struct links *);
+void links_free(struct links *);
+/* Declares the field of an input, output or state; null and a message on failure. */
+struct field *slot_field(const struct descriptor *, const struct slot *, struct fields *,
+                         struct trace *);
+
+/* Counts of flagged points, one a thread and plugin. */
+enum { TALLY_MESSAGES = 64 };
+struct tally {
+  uint64_t count[TALLY_MESSAGES];
+  bool stopped;
+  size_t set;
+  int64_t id;
+  size_t message;
+};
+void tally_block(struct tally *, const int64_t *status, const struct gamut_chunk *);
+/* Sums the counts of message m over the threads' tallies; whether any is above zero. */
+bool tally_report(const struct tally *, size_t tallies, size_t stride,
+                  const struct descriptor *, size_t *index, struct flag_report *);
+bool tally_stopped(struct tally *, size_t tallies, size_t stride, const struct descriptor *,
+                   struct flag_stop *);
+
+#endif

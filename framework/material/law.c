@@ -1,0 +1,176 @@
+#include "material/law.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { SLACK = 24 };
+
+static bool has_row(const struct kernel *kernel, size_t slot)
+{
+  switch (kernel->slot[slot].kind) {
+  case SLOT_INPUT: return !kernel->uniform[slot];
+  case SLOT_OUTPUT:
+  case SLOT_STATE_BEGIN:
+  case SLOT_STATE_END: return true;
+  default: return false;
+  }
+}
+
+static bool is_result(const struct slot *slot)
+{
+  return slot->kind == SLOT_OUTPUT || slot->kind == SLOT_STATE_END;
+}
+
+/* Evaluates every point in place. */
+static void evaluate_all(struct law *law)
+{
+  memset(law->image->status, 0, law->image->count * sizeof *law->image->status);
+  law->kernel->main(law->image);
+}
+
+static void gather(struct law *law, const uint32_t *lane, size_t lanes)
+{
+  for (size_t s = 0; s < law->kernel->slots; s++) {
+    if (!has_row(law->kernel, s) || is_result(&law->kernel->slot[s]))
+      continue;
+    const double *from = law->image->pointer[s];
+    double *to = law->compact->pointer[s];
+    for (size_t i = 0; i < lanes; i++)
+      to[i] = from[lane[i]];
+  }
+}
+
+static void spread(struct law *law, const uint32_t *lane, size_t lanes)
+{
+  for (size_t s = 0; s < law->kernel->slots; s++) {
+    if (!has_row(law->kernel, s) || !is_result(&law->kernel->slot[s]))
+      continue;
+    const double *from = law->compact->pointer[s];
+    double *to = law->image->pointer[s];
+    for (size_t i = 0; i < lanes; i++)
+      to[lane[i]] = from[i];
+  }
+  for (size_t i = 0; i < lanes; i++)
+    law->image->status[lane[i]] = law->compact->status[i];
+}
+
+static void evaluate(struct law *law, const uint32_t *lane, size_t lanes)
+{
+  if (!lane) {
+    evaluate_all(law);
+    return;
+  }
+  gather(law, lane, lanes);
+  memset(law->compact->status, 0, lanes * sizeof *law->compact->status);
+  law->compact->count = lanes;
+  law->kernel->main(law->compact);
+  spread(law, lane, lanes);
+}
+
+static void evaluate_strength(const struct gamut_strength_law *strength, const uint32_t *lane,
+                              size_t lanes)
+{
+  evaluate((struct law *)((char *)(size_t)strength - offsetof(struct law, strength)), lane, lanes);
+}
+
+static void evaluate_eos(const struct gamut_eos_law *eos, const uint32_t *lane, size_t lanes)
+{
+  evaluate((struct law *)((char *)(size_t)eos - offsetof(struct law, eos)), lane, lanes);
+}
+
+double *law_row(const struct law *law, const char *name)
+{
+  for (size_t s = 0; s < law->kernel->slots; s++)
+    if (has_row(law->kernel, s) && strcmp(law->kernel->slot[s].name, name) == 0)
+      return law->image->pointer[s];
+  return NULL;
+}
+
+/* Arguments the law does not read and results it does not give still have a row: scratch for the
+ * caller to write, zeros to read. */
+static double *row_or_spare(const struct law *law, const char *name, double *spare)
+{
+  double *row = law_row(law, name);
+  return row ? row : spare;
+}
+
+static void show_strength(struct law *law, double *unread, double *zero)
+{
+  law->strength = (struct gamut_strength_law){
+      .evaluate = evaluate_strength,
+      .plastic_strain = row_or_spare(law, "plastic_strain", unread),
+      .plastic_strain_rate = row_or_spare(law, "plastic_strain_rate", unread),
+      .temperature = row_or_spare(law, "temperature", unread),
+      .flow_stress = row_or_spare(law, "flow_stress", zero),
+      .flow_stress_slope_plastic_strain =
+          row_or_spare(law, "flow_stress_slope_plastic_strain", zero),
+      .flow_stress_slope_plastic_strain_rate =
+          row_or_spare(law, "flow_stress_slope_plastic_strain_rate", zero),
+      .flow_stress_slope_temperature = row_or_spare(law, "flow_stress_slope_temperature", zero)};
+}
+
+static void show_eos(struct law *law, double *unread, double *zero)
+{
+  law->eos = (struct gamut_eos_law){
+      .evaluate = evaluate_eos,
+      .compression = row_or_spare(law, "compression", unread),
+      .energy = row_or_spare(law, "energy", unread),
+      .pressure = row_or_spare(law, "pressure", zero),
+      .pressure_slope_compression = row_or_spare(law, "pressure_slope_compression", zero),
+      .pressure_slope_energy = row_or_spare(law, "pressure_slope_energy", zero),
+      .sound_speed = row_or_spare(law, "sound_speed", zero)};
+}
+
+gamut_status law_new(const struct kernel *kernel, struct arena *arena, size_t rows,
+                     struct law **out)
+{
+  static const char label[] = "laws of materials";
+  struct law *law = arena_take(arena, label, sizeof *law);
+  if (!law)
+    return GAMUT_INTERNAL;
+  *out = law;
+  law->kernel = kernel;
+  law->rows = rows;
+  law->stride = rows + SLACK;
+  law->image = image_new(kernel, arena, rows, label);
+  law->compact = image_new(kernel, arena, rows, label);
+  size_t count = 2; /* the two spare rows come last */
+  for (size_t s = 0; s < kernel->slots; s++)
+    count += has_row(kernel, s);
+  law->memory = arena_take(arena, label, count * law->stride * sizeof(double));
+  law->gathered = arena_take(arena, label, count * law->stride * sizeof(double));
+  if (!law->image || !law->compact || !law->memory || !law->gathered)
+    return GAMUT_INTERNAL;
+  size_t row = 0;
+  for (size_t s = 0; s < kernel->slots; s++)
+    if (has_row(kernel, s)) {
+      law->image->pointer[s] = law->memory + row * law->stride;
+      law->compact->pointer[s] = law->gathered + row * law->stride;
+      row++;
+    }
+  double *unread = law->memory + row * law->stride, *zero = unread + law->stride;
+  show_strength(law, unread, zero);
+  show_eos(law, unread, zero);
+  return GAMUT_OK;
+}
+
+void law_free(struct law *law, struct arena *arena)
+{
+  if (!law)
+    return;
+  struct image *image[] = {law->image, law->compact};
+  for (int i = 0; i < 2; i++)
+    if (image[i]) {
+      arena_give(arena, image[i]->status);
+      arena_give(arena, image[i]);
+    }
+  arena_give(arena, law->memory);
+  arena_give(arena, law->gathered);
+  arena_give(arena, law);
+}
+
+void law_begin(struct law *law, size_t count)
+{
+  law->image->count = count;
+  memset(law->image->status, 0, count * sizeof *law->image->status);
+}

@@ -1,0 +1,27 @@
+/* A strength or eos kernel bound as a callee: its argument and result arrays, and its evaluation at
+ * all points or at a list of them. */
+#ifndef GAMUT_LAW_H
+#define GAMUT_LAW_H
+
+#include "material/image.h"
+
+struct law {
+  struct gamut_strength_law strength; /* what the caller sees, by the kind of the kernel */
+  struct gamut_eos_law eos;
+  const struct kernel *kernel;
+  struct image *image;   /* all points */
+  struct image *compact; /* listed points */
+  size_t rows, stride;
+  double *memory;        /* arguments, results, sinks: one row a slot that is not uniform */
+  double *gathered;      /* the same rows for listed points */
+};
+
+/* Two users: a run (linked to fields) and a bench (alone). `rows` is the most points. */
+gamut_status law_new(const struct kernel *, struct arena *, size_t rows, struct law **);
+void law_free(struct law *, struct arena *);
+/* Row of a slot by its name, or null. */
+double *law_row(const struct law *, const char *name);
+/* How many points the next evaluations have, and their statuses cleared. */
+void law_begin(struct law *, size_t count);
+
+#endif
