@@ -146,6 +146,8 @@ void descriptor_free(struct descriptor *); /* accepts null */
 
 const char *kind_name(enum gamut_kind);
 bool kind_from_name(const char *name, enum gamut_kind *);
+/* Names of the operations of a kind, as they stand in struct NAME_ops; null past the end. */
+const char *kind_operation(enum gamut_kind, size_t index);
 const struct parameter *parameter_named(const struct parameter *, size_t count, const char *name);
 /* Index of a parameter of the descriptor, or -1. */
 int descriptor_parameter(const struct descriptor *, const char *name);

@@ -76,8 +76,6 @@ bool range_within(const struct range *inner, const struct range *outer);
 void check_layout(struct reader *, const struct tree *root);
 void descriptor_seal(struct descriptor *); /* computes the digest */
 
-/* Names of the operations of a kind, as members of struct NAME_ops; null past the end. */
-const char *kind_operation(enum gamut_kind, size_t index);
 const char *value_type_name(enum value_type);
 bool kernel_sees(const struct parameter *);
 

@@ -14,14 +14,18 @@ struct registry;
 /* Where plugins are looked for, in order: --plugin-path, GAMUT_PLUGIN_PATH (ignored when the program
  * is privileged), $XDG_DATA_HOME/gamut/plugins (off with user_plugins false), the plugins beside the
  * build tree's command when it runs in place, then the installed folder. Only absolute folders that
- * belong to the user or root and that nobody else may write; others are skipped with a warning. The
- * first of two plugins with one id wins; the shadowed one is noted.
+ * belong to the user, to root or to the owner of the running program, and that nobody else may write;
+ * others are skipped with a warning (the build tree of the running program may be shared with a group).
+ * The first of two plugins with one id wins; the shadowed one is noted. A plugin whose YAML has faults
+ * is skipped with a warning; where a scene names it, its faults are told.
  *
- * Below such a folder a plugin is KIND/NAME/NAME.yaml with its shared objects beside it. The build
+ * Below such a folder a plugin is KIND/NAME/NAME.yaml, NAME/NAME.yaml or NAME.yaml, with its shared
+ * objects beside it or in .libs there. The build
  * tree keeps the two apart: a file `plugins.path` in the folder of the running executable has lines
  * "YAMLDIR SODIR" (one blank, both relative to that folder, e.g. "../plugins plugins"), and
  * SODIR/KIND/NAME/NAME.so belongs to YAMLDIR/KIND/NAME/NAME.yaml. The installed folder is the string
- * GAMUT_PLUGIN_FOLDER that the build defines. */
+ * GAMUT_PLUGIN_FOLDER that the build defines. A folder with a plugins.path may also be named in
+ * --plugin-path or GAMUT_PLUGIN_PATH (tests do). */
 struct registry_options { const char *plugin_path; bool user_plugins; };
 
 gamut_status registry_new(const struct registry_options *, const struct units *, struct trace *,
@@ -49,7 +53,8 @@ gamut_status registry_add(struct registry *, const char *path, struct trace *,
  *   NAME.v4.so  x86-64-v4   __builtin_cpu_supports("x86-64-v4")
  *   NAME.v3.so  x86-64-v3   __builtin_cpu_supports("x86-64-v3")
  *   NAME.so     baseline    always there
- * NAME.so alone is a whole plugin; that is what a stranger builds. */
+ * NAME.so alone is a whole plugin; that is what a stranger builds. The environment's GAMUT_LEVEL
+ * (baseline, v3 or v4) sets the highest level to take. */
 gamut_status registry_open(struct registry *, const struct descriptor *, struct trace *,
                            const struct gamut_plugin **);
 /* Instruction-set level that was picked ("x86-64-v4", "baseline"); null if not opened. */

@@ -1,0 +1,59 @@
+/* Inside the registry room. */
+#ifndef GAMUT_REGISTRY_INSIDE_H
+#define GAMUT_REGISTRY_INSIDE_H
+
+#include <sys/types.h>
+
+#include "registry/registry.h"
+
+/* One plugin that was found. */
+struct entry {
+  struct descriptor *descriptor; /* null where the YAML has faults */
+  char *file;                    /* its YAML, absolute */
+  char *kind, *name;             /* as the path says, where the YAML has faults */
+  char *objects;                 /* folder of its shared objects */
+  const struct entry *shadowed;  /* the plugin that stands in front of this one, or null */
+  const struct gamut_plugin *plugin;
+  const char *level;
+  char *refusal; /* why it was refused: a second load would not run its constructors again */
+};
+
+/* A folder that was looked at, or would have been. */
+struct root {
+  char *yaml, *objects;
+  const char *origin; /* "--plugin-path" ... */
+  char *skipped;      /* why, or null */
+  size_t found;
+};
+
+struct registry {
+  const struct units *units;
+  struct entry **entry; /* all, in the order found */
+  size_t entries;
+  struct entry **usable; /* sorted by id, without shadowed and faulty ones */
+  size_t usables;
+  struct root *root;
+  size_t roots;
+  bool started; /* libltdl */
+};
+
+/* "one/two"; null where there is no memory. */
+char *path_join(const char *one, const char *two);
+void *grow(void *list, size_t count, size_t size, bool *failed);
+bool is_folder(const char *path);
+bool is_file(const char *path);
+
+/* Fills registry->root from the options and the environment. */
+gamut_status search_roots(struct registry *, const struct registry_options *, struct trace *);
+/* Reads the plugins of one root. */
+gamut_status search_plugins(struct registry *, struct root *, struct trace *);
+/* Reads one YAML file. A faulty one is kept as such; with `aloud` its faults are recorded. */
+gamut_status registry_take(struct registry *, const char *file, const char *objects, bool aloud,
+                           struct trace *, struct entry **);
+/* Puts the usable entries in order; `first` (or null) wins over all others with its id. */
+gamut_status registry_sort(struct registry *, struct entry *first, struct trace *);
+
+struct entry *registry_entry(const struct registry *, const struct descriptor *);
+void registry_stop(struct registry *); /* lets libltdl go */
+
+#endif
