@@ -33,8 +33,11 @@ enum gamut_severity { GAMUT_FINE = 0, GAMUT_NOTE = 1, GAMUT_WARN = 2, GAMUT_STOP
 
 /* Flags point i with `message` where `condition` holds, keeping a worse one that stands there. */
 #define GAMUT_FLAG(block, i, condition, message)                                                   \
-  ((block)->status[i] =                                                                            \
-       (condition) && (block)->status[i] < (message) ? (message) : (block)->status[i])
+  gamut_flag(&(block)->status[i], (condition) ? (int64_t)(message) : 0)
+static inline void gamut_flag(int64_t *status, int64_t raised)
+{
+  *status = *status < raised ? raised : *status;
+}
 
 /* Stores a derivative where the core asked for it (the pointer is null otherwise). */
 #define GAMUT_PUT(pointer, i, value)                                                               \

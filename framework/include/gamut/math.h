@@ -17,18 +17,26 @@
 #include <stdint.h>
 #include <string.h>
 
+/* For the functions that kernels call in their loops: a call that is not inlined keeps the loop from
+ * vectorising. */
+#if defined(__GNUC__)
+#define GAMUT_INLINE static inline __attribute__((always_inline))
+#else
+#define GAMUT_INLINE static inline
+#endif
+
 /* log 2 = high + low; the high part has 21 trailing zero bits, so that k * high is exact. */
 #define GAMUT_LN2_HIGH 6.93147180369123816490e-01
 #define GAMUT_LN2_LOW 1.90821492927058770002e-10
 #define GAMUT_ROUNDER 6755399441055744.0 /* 1.5 * 2^52: adding it rounds to an integer */
 
-static inline uint64_t gamut_bits(double x)
+GAMUT_INLINE uint64_t gamut_bits(double x)
 {
   uint64_t bits;
   memcpy(&bits, &x, sizeof bits);
   return bits;
 }
-static inline double gamut_double(uint64_t bits)
+GAMUT_INLINE double gamut_double(uint64_t bits)
 {
   double x;
   memcpy(&x, &bits, sizeof x);
@@ -36,13 +44,13 @@ static inline double gamut_double(uint64_t bits)
 }
 
 /* 2^k for an integer -1022 <= k <= 1023 held in a double. */
-static inline double gamut_power_of_two(double k)
+GAMUT_INLINE double gamut_power_of_two(double k)
 {
   return gamut_double((gamut_bits(k + GAMUT_ROUNDER) + 1023) << 52);
 }
 
 /* x = 2^k m with m in [sqrt(1/2), sqrt(2)), for any positive finite x. */
-static inline double gamut_split(double x, double *k)
+GAMUT_INLINE double gamut_split(double x, double *k)
 {
   const double tiny = 2.2250738585072014e-308;
   double scaled = x < tiny ? x * 18014398509481984.0 : x; /* 2^54: denormals */
@@ -56,7 +64,7 @@ static inline double gamut_split(double x, double *k)
 }
 
 /* k log 2 + log(1 + f) + rest, for a small rest. */
-static inline double gamut_log_sum(double k, double f, double rest)
+GAMUT_INLINE double gamut_log_sum(double k, double f, double rest)
 {
   double s = f / (2.0 + f), z = s * s, w = z * z;
   double odd = w * (3.999999999940941908e-01 +
@@ -69,7 +77,7 @@ static inline double gamut_log_sum(double k, double f, double rest)
   return k * GAMUT_LN2_HIGH - ((half - tail) - f);
 }
 
-static inline double gamut_log(double x)
+GAMUT_INLINE double gamut_log(double x)
 {
   double k, f = gamut_split(x, &k) - 1.0;
   double y = gamut_log_sum(k, f, 0.0);
@@ -77,7 +85,7 @@ static inline double gamut_log(double x)
   return x > 0.0 ? y : x == 0.0 ? -HUGE_VAL : x < 0.0 ? (double)NAN : y;
 }
 
-static inline double gamut_log1p(double x)
+GAMUT_INLINE double gamut_log1p(double x)
 {
   double u = 1.0 + x, part = u - 1.0;
   double lost = (1.0 - (u - part)) + (x - part); /* u + lost = 1 + x exactly */
@@ -89,7 +97,7 @@ static inline double gamut_log1p(double x)
 }
 
 /* x + x_low = k log 2 + r with |r| <= log(2) / 2; exp(r) - 1 = r + *tail. */
-static inline double gamut_exp_reduce(double x, double x_low, double *k, double *tail)
+GAMUT_INLINE double gamut_exp_reduce(double x, double x_low, double *k, double *tail)
 {
   double n = (x * 1.4426950408889634074 + GAMUT_ROUNDER) - GAMUT_ROUNDER;
   double high = x - n * GAMUT_LN2_HIGH, low = n * GAMUT_LN2_LOW - x_low;
@@ -105,7 +113,7 @@ static inline double gamut_exp_reduce(double x, double x_low, double *k, double 
 }
 
 /* exp(x + x_low) for |x_low| far below |x|. */
-static inline double gamut_exp_sum(double x, double x_low)
+GAMUT_INLINE double gamut_exp_sum(double x, double x_low)
 {
   x = x < -746.0 ? -746.0 : x > 710.0 ? 710.0 : x;
   double k, tail, r = gamut_exp_reduce(x, x_low, &k, &tail);
@@ -115,12 +123,12 @@ static inline double gamut_exp_sum(double x, double x_low)
   return (y * gamut_power_of_two(first)) * gamut_power_of_two(k - first);
 }
 
-static inline double gamut_exp(double x)
+GAMUT_INLINE double gamut_exp(double x)
 {
   return gamut_exp_sum(x, 0.0);
 }
 
-static inline double gamut_expm1(double x)
+GAMUT_INLINE double gamut_expm1(double x)
 {
   double bounded = x < -60.0 ? -60.0 : x > 710.0 ? 710.0 : x;
   double k, tail, r = gamut_exp_reduce(bounded, 0.0, &k, &tail);
@@ -134,20 +142,20 @@ static inline double gamut_expm1(double x)
 }
 
 /* The upper 26 bits; what is left has 27. Products of such halves are exact. */
-static inline double gamut_upper(double x)
+GAMUT_INLINE double gamut_upper(double x)
 {
   return gamut_double(gamut_bits(x) & UINT64_C(0xfffffffff8000000));
 }
 
 /* The rounding error of p = a * b. */
-static inline double gamut_product_error(double a, double b, double p)
+GAMUT_INLINE double gamut_product_error(double a, double b, double p)
 {
   double ah = gamut_upper(a), al = a - ah, bh = gamut_upper(b), bl = b - bh;
   return ((ah * bh - p) + (ah * bl + al * bh)) + al * bl;
 }
 
 /* log(x) = result + *low with a relative error of about 2^-67, for positive finite x. */
-static inline double gamut_log_pair(double x, double *low)
+GAMUT_INLINE double gamut_log_pair(double x, double *low)
 {
   double k, m = gamut_split(x, &k);
   /* m = c (1 + s) / (1 - s) with |s| < 0.07; log c in two parts, the high one with short mantissa.
@@ -177,12 +185,12 @@ static inline double gamut_log_pair(double x, double *low)
   return sum;
 }
 
-static inline double gamut_whole(double x) /* the nearest whole number to x >= 0 */
+GAMUT_INLINE double gamut_whole(double x) /* the nearest whole number to x >= 0 */
 {
   return x < 4503599627370496.0 ? (x + 4503599627370496.0) - 4503599627370496.0 : x;
 }
 
-static inline double gamut_pow(double x, double y)
+GAMUT_INLINE double gamut_pow(double x, double y)
 {
   double size = fabs(x), low, log_x = gamut_log_pair(size, &low);
   /* Beyond 2^80 the result is 0, 1 or infinite all the same. */
