@@ -13,7 +13,8 @@
 struct store;
 
 /* Creates DIR (and its parents). An existing result is refused with GAMUT_OUTPUT unless `force`, which
- * removes only files of a former result. Nothing is made when the scene was wrong: call this late. */
+ * removes only files of a former result: results.h5, results.xdmf, history.csv, summary.json,
+ * scene.yaml and what `gamut plot` made in pictures/, and only where results.h5 is one of ours. Nothing is made when the scene was wrong: call this late. */
 gamut_status store_open(const char *folder, bool force, struct trace *, struct store **);
 void store_close(struct store *); /* accepts null */
 
@@ -30,16 +31,22 @@ struct frame_field {
   unsigned components;           /* 1, 3, 6 or 9: scalar, vector, symmetric tensor, tensor */
   const double *const *data;     /* [set * components + component], count of that set each */
 };
-/* Writes group /frames/NNNNNNNN with /BODY/position, /BODY/id and one dataset a field, attributes with
+/* N rows of components. Symmetric tensors are stored as xx xy xz yy yz zz, which is what ParaView takes
+ * a Tensor6 of XDMF to be, not in the order of the vocabulary; the attribute `components` of a dataset
+ * names its columns. A field called position is left out: the position is always there, N x 3. A frame
+ * at the time and step of the last one is not written again.
+ *
+ * Writes group /frames/NNNNNNNN with /BODY/position, /BODY/id and one dataset a field, attributes with
  * units; flushes; then rewrites results.xdmf by rename, so that a viewer may look during a run. */
 gamut_status store_frame(struct store *, double time, uint64_t step, const struct frame_set *,
                          size_t sets, const struct frame_field *, size_t fields, struct trace *);
 /* Writes every history to history.csv (own time column each, long form: quantity,unit,time,value) and
- * to /quantities/NAME/{time,value} in the HDF5 file. */
+ * to /quantities/NAME/{time,value} in the HDF5 file. An axis that is not time has its own name in both. */
 gamut_status store_histories(struct store *, struct history *const *, size_t count, struct trace *);
-gamut_status store_scene(struct store *, const struct tree *, struct trace *);   /* scene.yaml */
-gamut_status store_summary(struct store *, const char *json, struct trace *);   /* summary.json, and
-                                                                     as attribute of the HDF5 root */
+/* scene.yaml and summary.json; the same texts as datasets /scene and /summary (an attribute holds no more
+ * than 64 kB). */
+gamut_status store_scene(struct store *, const struct tree *, struct trace *);
+gamut_status store_summary(struct store *, const char *json, struct trace *);
 const char *store_folder(const struct store *);
 
 #endif

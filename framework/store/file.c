@@ -1,0 +1,97 @@
+#include "store/file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+char *file_path(const char *folder, const char *name)
+{
+  size_t size = strlen(folder) + strlen(name) + 2;
+  char *path = malloc(size);
+  if (path)
+    snprintf(path, size, "%s/%s", folder, name);
+  return path;
+}
+
+bool file_exists(const char *path)
+{
+  struct stat information;
+  return lstat(path, &information) == 0;
+}
+
+gamut_status folder_make(const char *folder, struct trace *trace)
+{
+  struct stat information;
+  gamut_status status = GAMUT_OK;
+  char *path = strdup(folder);
+  if (!path)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  for (char *end = path; *end && status == GAMUT_OK;) {
+    end += strspn(end, "/");
+    end += strcspn(end, "/");
+    char kept = *end;
+    *end = 0;
+    if (mkdir(path, 0777) != 0 && errno != EEXIST && stat(path, &information) != 0)
+      status = trace_fail(trace, GAMUT_OUTPUT, "cannot make the folder '%s': %s", path,
+                          strerror(errno));
+    *end = kept;
+  }
+  if (status == GAMUT_OK && (stat(folder, &information) != 0 || !S_ISDIR(information.st_mode)))
+    status = trace_fail(trace, GAMUT_OUTPUT, "'%s' is not a folder", folder);
+  free(path);
+  return status;
+}
+
+static int write_all(int file, const char *text, size_t size)
+{
+  while (size > 0) {
+    ssize_t written = write(file, text, size);
+    if (written < 0 && errno == EINTR)
+      continue;
+    if (written < 0)
+      return errno;
+    text += written;
+    size -= (size_t)written;
+  }
+  return fsync(file) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
+}
+
+gamut_status file_replace(const char *folder, const char *name, const char *text, size_t size,
+                          struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  char *path = file_path(folder, name), *partial = NULL;
+  int fault = 0;
+  if (path && (partial = malloc(strlen(path) + sizeof ".partial")))
+    sprintf(partial, "%s.partial", path);
+  if (!partial) {
+    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
+  int file = open(partial, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  fault = file < 0 ? errno : write_all(file, text, size);
+  if (file >= 0 && close(file) != 0 && !fault)
+    fault = errno;
+  if (!fault && rename(partial, path) != 0)
+    fault = errno;
+  if (fault) {
+    status = trace_fail(trace, GAMUT_OUTPUT, "cannot write '%s': %s", path, strerror(fault));
+    if (file >= 0)
+      unlink(partial);
+  }
+done:
+  free(partial);
+  free(path);
+  return status;
+}
+
+gamut_status file_remove(const char *path, struct trace *trace)
+{
+  if (unlink(path) == 0 || errno == ENOENT)
+    return GAMUT_OK;
+  return trace_fail(trace, GAMUT_OUTPUT, "cannot remove '%s': %s", path, strerror(errno));
+}

@@ -1,0 +1,165 @@
+#include <assert.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "field/vocabulary.h"
+#include "store/hdf5.h"
+#include "store/state.h"
+
+const unsigned symmetric_order[6] = {0, 3, 5, 1, 4, 2};
+
+static bool buffer_reserve(struct store *store, size_t size)
+{
+  if (size <= store->buffer_size)
+    return true;
+  double *buffer = realloc(store->buffer, size * sizeof *buffer);
+  if (!buffer)
+    return false;
+  store->buffer = buffer;
+  store->buffer_size = size;
+  return true;
+}
+
+/* "xx xy xz yy yz zz": what the columns of a dataset are. */
+static void component_list(unsigned components, char *list, size_t size)
+{
+  int length = 0;
+  list[0] = 0;
+  for (unsigned k = 0; k < components && length >= 0 && (size_t)length < size; ++k) {
+    const char *name = component_name(components, components == 6 ? symmetric_order[k] : k);
+    if (components == 6 && symmetric_order[k] == 5)
+      name = "xz";
+    length += snprintf(list + length, size - (size_t)length, "%s%s", k ? " " : "", name);
+  }
+}
+
+static herr_t describe(hid_t dataset, const char *unit, const char *meaning, unsigned components)
+{
+  char list[8 * VOCABULARY_COMPONENTS_MAX];
+  herr_t result = hdf5_text_attribute(dataset, "unit", unit);
+  if (result >= 0)
+    result = hdf5_text_attribute(dataset, "meaning", meaning);
+  component_list(components, list, sizeof list);
+  if (result >= 0 && components > 1)
+    result = hdf5_text_attribute(dataset, "components", list);
+  return result;
+}
+
+static herr_t write_described(hid_t group, const char *name, const char *unit, const char *meaning,
+                              unsigned components, size_t count, const double *data)
+{
+  hid_t made = hdf5_dataset(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, components, data);
+  herr_t result = made < 0 ? -1 : describe(made, unit, meaning, components);
+  if (made >= 0)
+    H5Dclose(made);
+  return result;
+}
+
+static herr_t write_ids(hid_t group, const struct frame_set *set)
+{
+  hid_t made =
+      hdf5_dataset(group, "id", H5T_STD_I64LE, H5T_NATIVE_INT64, set->count, 1, set->id);
+  herr_t result = made < 0 ? -1 : describe(made, "1", "the point's number for its whole life", 1);
+  if (made >= 0)
+    H5Dclose(made);
+  return result;
+}
+
+bool is_position(const struct frame_field *field)
+{
+  return strcmp(field->name, "position") == 0;
+}
+
+static herr_t write_set(struct store *store, hid_t frame, const struct frame_set *set, size_t number,
+                        const struct frame_field *field, size_t fields)
+{
+  double *buffer = store->buffer;
+  hid_t group = H5Gcreate2(frame, set->body, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  if (group < 0)
+    return -1;
+  for (size_t i = 0; i < set->count; ++i) {
+    for (size_t k = 0; k < 3; ++k)
+      buffer[3 * i + k] = set->position[k] ? set->position[k][i] : 0;
+  }
+  herr_t result = hdf5_whole_attribute(group, "axes", set->axes);
+  if (result >= 0)
+    result = write_described(group, "position", "m", "where the point is", 3, set->count, buffer);
+  if (result >= 0)
+    result = write_ids(group, set);
+  for (size_t f = 0; f < fields && result >= 0; ++f) {
+    unsigned components = field[f].components;
+    if (is_position(&field[f]))
+      continue;
+    for (unsigned k = 0; k < components; ++k) {
+      const double *from =
+          field[f].data[number * components + (components == 6 ? symmetric_order[k] : k)];
+      for (size_t i = 0; i < set->count; ++i)
+        buffer[components * i + k] = from[i];
+    }
+    result = write_described(group, field[f].name, field[f].unit, field[f].meaning, components,
+                             set->count, buffer);
+  }
+  H5Gclose(group);
+  return result;
+}
+
+static herr_t write_frame(struct store *store, double time, uint64_t step,
+                          const struct frame_set *set, size_t sets, const struct frame_field *field,
+                          size_t fields)
+{
+  char name[32];
+  snprintf(name, sizeof name, "frames/%08zu", store->frames);
+  hid_t group = H5Gcreate2(store->file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  if (group < 0)
+    return -1;
+  herr_t result = hdf5_real_attribute(group, "time", time);
+  if (result >= 0)
+    result = hdf5_whole_attribute(group, "step", (long long)step);
+  for (size_t i = 0; i < sets && result >= 0; ++i)
+    result = write_set(store, group, &set[i], i, field, fields);
+  H5Gclose(group);
+  return result;
+}
+
+/* Generous: what HDF5 keeps beside the numbers is far less than this a dataset. */
+static size_t frame_bytes(const struct frame_set *set, size_t sets,
+                          const struct frame_field *field, size_t fields)
+{
+  size_t columns = 4, beside = 8192, bytes = 65536;
+  for (size_t f = 0; f < fields; ++f)
+    columns += field[f].components;
+  for (size_t i = 0; i < sets; ++i)
+    bytes += set[i].count * columns * sizeof(double) + (fields + 3) * beside;
+  return bytes;
+}
+
+gamut_status store_frame(struct store *store, double time, uint64_t step,
+                         const struct frame_set *set, size_t sets, const struct frame_field *field,
+                         size_t fields, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  size_t count = 0, columns = 3;
+  if (store->frames > 0 && store->last_step == step && !(time > store->last_time))
+    return GAMUT_OK; /* the last state of a run that stops right after a frame */
+  for (size_t i = 0; i < sets; ++i) {
+    assert(set[i].axes >= 1 && set[i].axes <= 3);
+    count = set[i].count > count ? set[i].count : count;
+  }
+  for (size_t i = 0; i < fields; ++i) {
+    assert(field[i].components >= 1 && field[i].components <= VOCABULARY_COMPONENTS_MAX);
+    columns = field[i].components > columns ? field[i].components : columns;
+  }
+  if (!buffer_reserve(store, count * columns + 1))
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  TRY(hdf5_reserve(store->file, frame_bytes(set, sets, field, fields), store->path, trace));
+  if (write_frame(store, time, step, set, sets, field, fields) < 0)
+    return store_broken(store, trace);
+  TRY(hdf5_flush(store->file, store->path, trace));
+  xdmf_frame(store, time, set, sets, field, fields);
+  ++store->frames;
+  store->last_time = time;
+  store->last_step = step;
+  status = xdmf_write(store, trace);
+done:
+  return status;
+}

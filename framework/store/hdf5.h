@@ -1,0 +1,36 @@
+/* The few things that the store does with HDF5, each with the reason when it fails. */
+#ifndef GAMUT_STORE_HDF5_H
+#define GAMUT_STORE_HDF5_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <hdf5.h>
+
+#include "error/error.h"
+
+/* Records GAMUT_OUTPUT with the innermost reason of HDF5's error stack ("No space left on device"). */
+gamut_status hdf5_fault(const char *file, const char *what, struct trace *);
+
+/* Makes room on the disk for `bytes` more before HDF5 writes them, and gives back what is left after a
+ * flush. HDF5 cannot recover from a disk that fills up while it writes: closing such a file crashes. */
+gamut_status hdf5_reserve(hid_t file, size_t bytes, const char *path, struct trace *);
+gamut_status hdf5_flush(hid_t file, const char *path, struct trace *);
+
+/* These return a negative value on failure; the caller asks hdf5_fault for the reason. */
+herr_t hdf5_text_attribute(hid_t at, const char *name, const char *text);
+herr_t hdf5_real_attribute(hid_t at, const char *name, double value);
+herr_t hdf5_whole_attribute(hid_t at, const char *name, long long value);
+herr_t hdf5_text_dataset(hid_t at, const char *name, const char *text);
+/* rows x columns; columns 1 gives one dimension. Returns the open dataset. */
+hid_t hdf5_dataset(hid_t at, const char *name, hid_t stored, hid_t memory, size_t rows,
+                   size_t columns, const void *data);
+
+/* Allocated; null if absent or of another type. */
+char *hdf5_read_text_attribute(hid_t at, const char *name);
+/* `otherwise` if absent. */
+double hdf5_read_real_attribute(hid_t at, const char *name, double otherwise);
+/* A dataset of reals of one or two dimensions, row by row, allocated. Null on failure. */
+double *hdf5_read_reals(hid_t at, const char *name, size_t *rows, size_t *columns);
+
+#endif

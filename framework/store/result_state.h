@@ -1,0 +1,18 @@
+/* An open result. */
+#ifndef GAMUT_RESULT_STATE_H
+#define GAMUT_RESULT_STATE_H
+
+#include <hdf5.h>
+
+#include "store/result.h"
+
+struct result {
+  char *path;
+  hid_t file;
+  size_t frames;
+};
+
+/* Name of a link of a group, in order of name; allocated. */
+char *link_name(hid_t group, size_t index);
+
+#endif

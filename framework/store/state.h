@@ -1,0 +1,54 @@
+/* What the store keeps while it is open. */
+#ifndef GAMUT_STORE_STATE_H
+#define GAMUT_STORE_STATE_H
+
+#include <stdio.h>
+
+#include <hdf5.h>
+
+#include "store/store.h"
+
+/* Text that grows; `failed` when memory ran out. */
+struct text {
+  char *data;
+  size_t size, room;
+  bool failed;
+};
+void text_add(struct text *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+struct store {
+  char *folder, *path; /* path of results.h5 */
+  hid_t file;
+  bool broken;         /* HDF5 failed: closing would fail too */
+  size_t frames;
+  double last_time;
+  uint64_t last_step;
+  double *buffer;      /* a field of one body, row by row */
+  size_t buffer_size;
+  struct text xdmf;    /* the frames of results.xdmf so far */
+};
+
+/* Names of the files of a result. */
+#define RESULT_HDF5 "results.h5"
+#define RESULT_XDMF "results.xdmf"
+#define RESULT_HISTORY "history.csv"
+#define RESULT_SUMMARY "summary.json"
+#define RESULT_SCENE "scene.yaml"
+#define RESULT_PICTURES "pictures"
+
+/* Records why HDF5 failed; the file is then left as it is. */
+gamut_status store_broken(struct store *, struct trace *);
+
+/* One frame in XDMF, and the whole file by rename. */
+void xdmf_frame(struct store *, double time, const struct frame_set *, size_t sets,
+                const struct frame_field *, size_t fields);
+gamut_status xdmf_write(struct store *, struct trace *);
+
+/* The position is written anyway: a field of that name is left out. */
+bool is_position(const struct frame_field *);
+
+/* Where component k of a symmetric tensor in XDMF's order xx xy xz yy yz zz stands in ours,
+ * xx yy zz xy yz zx. */
+extern const unsigned symmetric_order[6];
+
+#endif

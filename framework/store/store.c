@@ -1,0 +1,218 @@
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "store/file.h"
+#include "store/hdf5.h"
+#include "store/state.h"
+
+static const char *const result_files[] = {RESULT_HDF5, RESULT_XDMF, RESULT_HISTORY, RESULT_SUMMARY,
+                                           RESULT_SCENE};
+enum { RESULT_FILES = sizeof result_files / sizeof result_files[0] };
+
+/* Name of the first file of a result that the folder holds, or null. */
+static const char *former_file(const char *folder)
+{
+  for (size_t i = 0; i < RESULT_FILES; ++i) {
+    char *path = file_path(folder, result_files[i]);
+    bool there = path && file_exists(path);
+    free(path);
+    if (there)
+      return result_files[i];
+  }
+  return NULL;
+}
+
+/* Whether results.h5 is one of ours: nobody else's files are removed. */
+static bool is_ours(const char *folder)
+{
+  char *path = file_path(folder, RESULT_HDF5);
+  hid_t file = path ? H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT) : -1;
+  bool ours = file >= 0 && H5Aexists(file, "gamut") > 0;
+  if (file >= 0)
+    H5Fclose(file);
+  H5Eclear2(H5E_DEFAULT);
+  free(path);
+  return ours;
+}
+
+static bool is_picture(const char *name)
+{
+  const char *end = strrchr(name, '.');
+  bool made = strncmp(name, "history", 7) == 0 || strncmp(name, "body", 4) == 0;
+  return made && end &&
+         (strcmp(end, ".png") == 0 || strcmp(end, ".gp") == 0 || strcmp(end, ".dat") == 0);
+}
+
+static gamut_status remove_pictures(const char *folder, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  char *pictures = file_path(folder, RESULT_PICTURES);
+  DIR *opened = pictures ? opendir(pictures) : NULL;
+  for (struct dirent *entry; opened && status == GAMUT_OK && (entry = readdir(opened));) {
+    if (!is_picture(entry->d_name))
+      continue;
+    char *path = file_path(pictures, entry->d_name);
+    if (path)
+      status = file_remove(path, trace);
+    free(path);
+  }
+  if (opened) {
+    closedir(opened);
+    rmdir(pictures); /* stays when somebody else has put something there */
+  }
+  free(pictures);
+  return status;
+}
+
+static gamut_status remove_former(const char *folder, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  /* results.h5 goes last: it is the mark of a result, should removing stop half-way */
+  for (size_t i = RESULT_FILES; i-- > 0 && status == GAMUT_OK;) {
+    char *path = file_path(folder, result_files[i]);
+    if (!path)
+      return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    if (i == 0)
+      status = remove_pictures(folder, trace);
+    if (status == GAMUT_OK)
+      status = file_remove(path, trace);
+    free(path);
+  }
+  return status;
+}
+
+static gamut_status make_way(const char *folder, bool force, struct trace *trace)
+{
+  const char *former = former_file(folder);
+  if (!former)
+    return GAMUT_OK;
+  if (!force)
+    return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL,
+                         "choose another folder, or --force to replace the result",
+                         "'%s' holds a result already (%s)", folder, former);
+  if (!is_ours(folder))
+    return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL, "choose another folder",
+                         "'%s' holds %s, but no results.h5 of gamut: nothing is removed", folder,
+                         former);
+  return remove_former(folder, trace);
+}
+
+static hid_t create_file(const char *path)
+{
+  hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+#if H5_VERSION_GE(1, 10, 7)
+  H5Pset_file_locking(access, 0, 1); /* a viewer may look during a run */
+#endif
+  hid_t file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  H5Pclose(access);
+  return file;
+}
+
+static gamut_status start_file(struct store *store, struct trace *trace)
+{
+  /* HDF5 hides the reason of a file that cannot be made */
+  int probe = open(store->path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (probe < 0)
+    return trace_fail(trace, GAMUT_OUTPUT, "cannot make '%s': %s", store->path, strerror(errno));
+  close(probe);
+  store->file = create_file(store->path);
+  if (store->file < 0)
+    return hdf5_fault(store->path, "make", trace);
+  hid_t frames = H5Gcreate2(store->file, "frames", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  herr_t result = frames < 0 ? -1 : 0;
+  if (frames >= 0)
+    H5Gclose(frames);
+  if (result >= 0)
+    result = hdf5_text_attribute(store->file, "gamut", GAMUT_VERSION);
+  return result >= 0 ? hdf5_flush(store->file, store->path, trace) : store_broken(store, trace);
+}
+
+gamut_status store_broken(struct store *store, struct trace *trace)
+{
+  store->broken = true;
+  return hdf5_fault(store->path, "write", trace);
+}
+
+gamut_status store_open(const char *folder, bool force, struct trace *trace, struct store **made)
+{
+  gamut_status status = GAMUT_OK;
+  *made = NULL;
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  struct store *store = calloc(1, sizeof *store);
+  if (store) {
+    store->file = -1;
+    store->folder = strdup(folder);
+    store->path = file_path(folder, RESULT_HDF5);
+  }
+  if (!store || !store->folder || !store->path) {
+    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
+  TRY(folder_make(folder, trace));
+  TRY(make_way(folder, force, trace));
+  TRY(start_file(store, trace));
+  *made = store;
+  return GAMUT_OK;
+done:
+  store_close(store);
+  return status;
+}
+
+void store_close(struct store *store)
+{
+  if (!store)
+    return;
+  if (store->file >= 0 && !store->broken)
+    H5Fclose(store->file);
+  free(store->folder);
+  free(store->path);
+  free(store->buffer);
+  free(store->xdmf.data);
+  free(store);
+}
+
+const char *store_folder(const struct store *store)
+{
+  return store->folder;
+}
+
+/* A text as a file, and as a dataset of results.h5 so that the one file tells all. */
+static gamut_status keep_text(struct store *store, const char *name, const char *dataset,
+                              const char *text, struct trace *trace)
+{
+  gamut_status status = file_replace(store->folder, name, text, strlen(text), trace);
+  herr_t result = 0;
+  if (status == GAMUT_OK)
+    status = hdf5_reserve(store->file, strlen(text) + 65536, store->path, trace);
+  if (status != GAMUT_OK)
+    return status;
+  if (H5Lexists(store->file, dataset, H5P_DEFAULT) > 0)
+    result = H5Ldelete(store->file, dataset, H5P_DEFAULT);
+  if (result >= 0)
+    result = hdf5_text_dataset(store->file, dataset, text);
+  return result >= 0 ? hdf5_flush(store->file, store->path, trace) : store_broken(store, trace);
+}
+
+gamut_status store_scene(struct store *store, const struct tree *tree, struct trace *trace)
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *memory = open_memstream(&text, &size);
+  if (!memory)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  tree_write(tree, memory);
+  gamut_status status = fclose(memory) == 0
+                            ? keep_text(store, RESULT_SCENE, "scene", text, trace)
+                            : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  free(text);
+  return status;
+}
+
+gamut_status store_summary(struct store *store, const char *json, struct trace *trace)
+{
+  return keep_text(store, RESULT_SUMMARY, "summary", json, trace);
+}
