@@ -54,6 +54,5 @@ gamut_status registry_take(struct registry *, const char *file, const char *obje
 gamut_status registry_sort(struct registry *, struct entry *first, struct trace *);
 
 struct entry *registry_entry(const struct registry *, const struct descriptor *);
-void registry_stop(struct registry *); /* lets libltdl go */
 
 #endif

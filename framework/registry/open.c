@@ -98,6 +98,7 @@ static bool same_arithmetic(const fenv_t *before, const fenv_t *after)
 static gamut_status load_object(struct registry *registry, struct entry *entry, const char *file,
                                 struct trace *trace, lt_dlhandle *handle)
 {
+  /* Never undone: what was opened stays until the program ends. */
   if (!registry->started && lt_dlinit() != 0)
     return trace_fail(trace, GAMUT_INTERNAL, "libltdl does not start: %s", lt_dlerror());
   registry->started = true;
@@ -300,11 +301,4 @@ const char *registry_level(const struct registry *registry, const struct descrip
 bool registry_is_open(const struct registry *registry, const struct descriptor *descriptor)
 {
   return registry_level(registry, descriptor) != NULL;
-}
-
-void registry_stop(struct registry *registry)
-{
-  if (registry->started)
-    lt_dlexit();
-  registry->started = false;
 }

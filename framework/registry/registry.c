@@ -146,7 +146,6 @@ void registry_free(struct registry *registry)
 {
   if (!registry)
     return;
-  registry_stop(registry);
   for (size_t i = 0; i < registry->entries; i++)
     entry_free(registry->entry[i]);
   for (size_t i = 0; i < registry->roots; i++) {

@@ -50,13 +50,15 @@ bool is_file(const char *path)
 }
 
 /* Folder and owner of the running program; false where the system does not say. */
-static bool program_place(char folder[PATH_MAX], uid_t *owner)
+static bool program_place(char *folder, size_t size, uid_t *owner)
 {
   struct stat info;
-  ssize_t length = readlink("/proc/self/exe", folder, PATH_MAX - 1);
+  char path[PATH_MAX];
+  ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
   if (length <= 0)
     return false;
-  folder[length] = 0;
+  path[length] = 0;
+  snprintf(folder, size, "%s", path);
   if (stat(folder, &info) != 0)
     return false;
   *owner = info.st_uid;
@@ -78,7 +80,7 @@ static const char *unsafe(const char *folder, bool in_place)
     return errno == ENOENT ? "it does not exist" : strerror(errno);
   if (!S_ISDIR(info.st_mode))
     return "it is no folder";
-  if (!program_place(program, &owner))
+  if (!program_place(program, sizeof program, &owner))
     owner = 0;
   if (info.st_uid != 0 && info.st_uid != geteuid() && info.st_uid != owner)
     return "it belongs to another user";
@@ -214,7 +216,7 @@ gamut_status search_roots(struct registry *registry, const struct registry_optio
   }
   search.origin = "the build tree";
   search.in_place = true;
-  if (program_place(folder, &owner))
+  if (program_place(folder, sizeof folder, &owner))
     TRY(add_folder(&search, folder));
   search.in_place = false;
   search.origin = "installed";
