@@ -6,7 +6,14 @@
 #include "store/hdf5.h"
 #include "store/state.h"
 
-const unsigned symmetric_order[6] = {0, 3, 5, 1, 4, 2};
+/* A symmetric tensor, kept as xx yy zz xy yz zx, is written whole: xx xy xz yx yy yz zx zy zz. ParaView's
+ * two XDMF readers disagree about six columns; about nine they agree. */
+static const unsigned whole_tensor[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
+
+unsigned stored_components(const struct frame_field *field)
+{
+  return field->components == 6 ? 9 : field->components;
+}
 
 static bool buffer_reserve(struct store *store, size_t size)
 {
@@ -20,20 +27,18 @@ static bool buffer_reserve(struct store *store, size_t size)
   return true;
 }
 
-/* "xx xy xz yy yz zz": what the columns of a dataset are. */
+/* "xx xy xz yx ...": what the columns of a dataset are. */
 static void component_list(unsigned components, char *list, size_t size)
 {
   int length = 0;
   list[0] = 0;
-  for (unsigned k = 0; k < components && length >= 0 && (size_t)length < size; ++k) {
-    const char *name = component_name(components, components == 6 ? symmetric_order[k] : k);
-    if (components == 6 && symmetric_order[k] == 5)
-      name = "xz";
-    length += snprintf(list + length, size - (size_t)length, "%s%s", k ? " " : "", name);
-  }
+  for (unsigned k = 0; k < components && length >= 0 && (size_t)length < size; ++k)
+    length += snprintf(list + length, size - (size_t)length, "%s%s", k ? " " : "",
+                       component_name(components, k));
 }
 
-static herr_t describe(hid_t dataset, const char *unit, const char *meaning, unsigned components)
+static herr_t describe(hid_t dataset, const char *unit, const char *meaning, unsigned components,
+                       bool symmetric)
 {
   char list[8 * VOCABULARY_COMPONENTS_MAX];
   herr_t result = hdf5_text_attribute(dataset, "unit", unit);
@@ -42,14 +47,17 @@ static herr_t describe(hid_t dataset, const char *unit, const char *meaning, uns
   component_list(components, list, sizeof list);
   if (result >= 0 && components > 1)
     result = hdf5_text_attribute(dataset, "components", list);
+  if (result >= 0 && symmetric)
+    result = hdf5_whole_attribute(dataset, "symmetric", 1);
   return result;
 }
 
 static herr_t write_described(hid_t group, const char *name, const char *unit, const char *meaning,
-                              unsigned components, size_t count, const double *data)
+                              unsigned components, bool symmetric, size_t count,
+                              const double *data)
 {
   hid_t made = hdf5_dataset(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, components, data);
-  herr_t result = made < 0 ? -1 : describe(made, unit, meaning, components);
+  herr_t result = made < 0 ? -1 : describe(made, unit, meaning, components, symmetric);
   if (made >= 0)
     H5Dclose(made);
   return result;
@@ -59,7 +67,7 @@ static herr_t write_ids(hid_t group, const struct frame_set *set)
 {
   hid_t made =
       hdf5_dataset(group, "id", H5T_STD_I64LE, H5T_NATIVE_INT64, set->count, 1, set->id);
-  herr_t result = made < 0 ? -1 : describe(made, "1", "the point's number for its whole life", 1);
+  herr_t result = made < 0 ? -1 : describe(made, "1", "the point's number for its whole life", 1, false);
   if (made >= 0)
     H5Dclose(made);
   return result;
@@ -68,6 +76,38 @@ static herr_t write_ids(hid_t group, const struct frame_set *set)
 bool is_position(const struct frame_field *field)
 {
   return strcmp(field->name, "position") == 0;
+}
+
+static herr_t write_field(struct store *store, hid_t group, const struct frame_set *set,
+                          size_t number, const struct frame_field *field)
+{
+  double *buffer = store->buffer;
+  unsigned columns = stored_components(field);
+  for (unsigned k = 0; k < columns; ++k) {
+    unsigned component = field->components == 6 ? whole_tensor[k] : k;
+    const double *from = field->data[number * field->components + component];
+    for (size_t i = 0; i < set->count; ++i)
+      buffer[columns * i + k] = from[i];
+  }
+  return write_described(group, field->name, field->unit, field->meaning, columns,
+                         field->components == 6, set->count, buffer);
+}
+
+/* XDMF's points are vertices 0 .. N-1 that must be listed: one list serves all bodies of N points. */
+static herr_t write_vertices(struct store *store, size_t count)
+{
+  char name[48];
+  int64_t *vertex = (int64_t *)(void *)store->buffer; /* of the same size as a double */
+  vertices_name(count, name, sizeof name);
+  if (H5Lexists(store->file, name, H5P_DEFAULT) > 0)
+    return 0;
+  for (size_t i = 0; i < count; ++i)
+    vertex[i] = (int64_t)i;
+  hid_t made = hdf5_dataset(store->file, name, H5T_STD_I64LE, H5T_NATIVE_INT64, count, 1, vertex);
+  if (made < 0)
+    return -1;
+  H5Dclose(made);
+  return 0;
 }
 
 static herr_t write_set(struct store *store, hid_t frame, const struct frame_set *set, size_t number,
@@ -83,21 +123,15 @@ static herr_t write_set(struct store *store, hid_t frame, const struct frame_set
   }
   herr_t result = hdf5_whole_attribute(group, "axes", set->axes);
   if (result >= 0)
-    result = write_described(group, "position", "m", "where the point is", 3, set->count, buffer);
+    result = write_described(group, "position", "m", "where the point is", 3, false, set->count,
+                             buffer);
   if (result >= 0)
     result = write_ids(group, set);
+  if (result >= 0)
+    result = write_vertices(store, set->count);
   for (size_t f = 0; f < fields && result >= 0; ++f) {
-    unsigned components = field[f].components;
-    if (is_position(&field[f]))
-      continue;
-    for (unsigned k = 0; k < components; ++k) {
-      const double *from =
-          field[f].data[number * components + (components == 6 ? symmetric_order[k] : k)];
-      for (size_t i = 0; i < set->count; ++i)
-        buffer[components * i + k] = from[i];
-    }
-    result = write_described(group, field[f].name, field[f].unit, field[f].meaning, components,
-                             set->count, buffer);
+    if (!is_position(&field[f]))
+      result = write_field(store, group, set, number, &field[f]);
   }
   H5Gclose(group);
   return result;
@@ -125,11 +159,11 @@ static herr_t write_frame(struct store *store, double time, uint64_t step,
 static size_t frame_bytes(const struct frame_set *set, size_t sets,
                           const struct frame_field *field, size_t fields)
 {
-  size_t columns = 4, beside = 8192, bytes = 65536;
+  size_t columns = 5, beside = 8192, bytes = 65536;
   for (size_t f = 0; f < fields; ++f)
-    columns += field[f].components;
+    columns += stored_components(&field[f]);
   for (size_t i = 0; i < sets; ++i)
-    bytes += set[i].count * columns * sizeof(double) + (fields + 3) * beside;
+    bytes += set[i].count * columns * sizeof(double) + (fields + 4) * beside;
   return bytes;
 }
 
@@ -147,7 +181,7 @@ gamut_status store_frame(struct store *store, double time, uint64_t step,
   }
   for (size_t i = 0; i < fields; ++i) {
     assert(field[i].components >= 1 && field[i].components <= VOCABULARY_COMPONENTS_MAX);
-    columns = field[i].components > columns ? field[i].components : columns;
+    columns = stored_components(&field[i]) > columns ? stored_components(&field[i]) : columns;
   }
   if (!buffer_reserve(store, count * columns + 1))
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");

@@ -48,8 +48,6 @@ static int column_of(hid_t group, const char *dataset, const char *component)
   hid_t opened = H5Dopen2(group, dataset, H5P_DEFAULT);
   char *list = opened >= 0 ? hdf5_read_text_attribute(opened, "components") : NULL;
   int column = word_number(list, component);
-  if (column < 0 && list && strcmp(component, "zx") == 0)
-    column = word_number(list, "xz");
   free(list);
   if (opened >= 0)
     H5Dclose(opened);
@@ -94,18 +92,26 @@ static gamut_status unknown_field(char *const name[], size_t count, const char *
   return GAMUT_USAGE;
 }
 
-static double scalar_of(const double *row, size_t columns)
+static double scalar_of(const double *row, size_t columns, bool symmetric)
 {
   double sum = 0;
-  if (columns == 6) { /* xx xy xz yy yz zz */
-    double mean = (row[0] + row[3] + row[5]) / 3;
-    double xx = row[0] - mean, yy = row[3] - mean, zz = row[5] - mean;
-    sum = 0.5 * (xx * xx + yy * yy + zz * zz) + row[1] * row[1] + row[2] * row[2] + row[4] * row[4];
+  if (columns == 9 && symmetric) {
+    double mean = (row[0] + row[4] + row[8]) / 3;
+    double xx = row[0] - mean, yy = row[4] - mean, zz = row[8] - mean;
+    sum = 0.5 * (xx * xx + yy * yy + zz * zz) + row[1] * row[1] + row[2] * row[2] + row[5] * row[5];
     return sqrt(3 * sum);
   }
   for (size_t k = 0; k < columns; ++k)
     sum += row[k] * row[k];
   return columns == 1 ? row[0] : sqrt(sum);
+}
+
+static bool is_symmetric(hid_t group, const char *name)
+{
+  hid_t dataset = H5Dopen2(group, name, H5P_DEFAULT);
+  bool symmetric = H5Aexists(dataset, "symmetric") > 0;
+  H5Dclose(dataset);
+  return symmetric;
 }
 
 static bool read_value(hid_t group, const struct choice *choice, struct result_body *body)
@@ -118,9 +124,10 @@ static bool read_value(hid_t group, const struct choice *choice, struct result_b
     free(data);
     return false;
   }
+  bool symmetric = is_symmetric(group, choice->dataset);
   for (size_t i = 0; i < rows; ++i)
     data[i] = choice->column >= 0 ? data[i * columns + (size_t)choice->column]
-                                  : scalar_of(data + i * columns, columns);
+                                  : scalar_of(data + i * columns, columns, symmetric);
   body->value = data;
   return true;
 }

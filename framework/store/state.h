@@ -46,9 +46,9 @@ gamut_status xdmf_write(struct store *, struct trace *);
 
 /* The position is written anyway: a field of that name is left out. */
 bool is_position(const struct frame_field *);
-
-/* Where component k of a symmetric tensor in XDMF's order xx xy xz yy yz zz stands in ours,
- * xx yy zz xy yz zx. */
-extern const unsigned symmetric_order[6];
+/* Columns of a field on disk. */
+unsigned stored_components(const struct frame_field *);
+/* Path of the list 0 .. count - 1 in the HDF5 file. */
+void vertices_name(size_t count, char *name, size_t size);
 
 #endif

@@ -112,6 +112,12 @@ static hid_t create_file(const char *path)
   return file;
 }
 
+static herr_t make_group(hid_t file, const char *name)
+{
+  hid_t group = H5Gcreate2(file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  return group < 0 ? -1 : H5Gclose(group);
+}
+
 static gamut_status start_file(struct store *store, struct trace *trace)
 {
   /* HDF5 hides the reason of a file that cannot be made */
@@ -122,10 +128,9 @@ static gamut_status start_file(struct store *store, struct trace *trace)
   store->file = create_file(store->path);
   if (store->file < 0)
     return hdf5_fault(store->path, "make", trace);
-  hid_t frames = H5Gcreate2(store->file, "frames", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  herr_t result = frames < 0 ? -1 : 0;
-  if (frames >= 0)
-    H5Gclose(frames);
+  herr_t result = make_group(store->file, "frames");
+  if (result >= 0)
+    result = make_group(store->file, "vertices");
   if (result >= 0)
     result = hdf5_text_attribute(store->file, "gamut", GAMUT_VERSION);
   return result >= 0 ? hdf5_flush(store->file, store->path, trace) : store_broken(store, trace);

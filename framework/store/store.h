@@ -31,8 +31,8 @@ struct frame_field {
   unsigned components;           /* 1, 3, 6 or 9: scalar, vector, symmetric tensor, tensor */
   const double *const *data;     /* [set * components + component], count of that set each */
 };
-/* N rows of components. Symmetric tensors are stored as xx xy xz yy yz zz, which is what ParaView takes
- * a Tensor6 of XDMF to be, not in the order of the vocabulary; the attribute `components` of a dataset
+/* N rows of components. A symmetric tensor is stored whole, nine columns row by row, since the two XDMF
+ * readers of ParaView disagree about six; the attribute `components` of a dataset
  * names its columns. A field called position is left out: the position is always there, N x 3. A frame
  * at the time and step of the last one is not written again.
  *

@@ -53,15 +53,26 @@ static void add_escaped(struct text *text, const char *words)
   }
 }
 
-/* ParaView's newer reader takes whole datasets only: no hyperslabs. */
-static void add_item(struct text *text, const char *type, size_t rows, size_t columns, size_t frame,
-                     const char *body, const char *name)
+void vertices_name(size_t count, char *name, size_t size)
+{
+  snprintf(name, size, "vertices/%08zu", count);
+}
+
+/* Up to the path of the dataset. ParaView's newer reader takes whole datasets only: no hyperslabs. */
+static void open_item(struct text *text, const char *type, size_t rows, size_t columns)
 {
   text_add(text, "            <DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"8\" "
                  "Dimensions=\"%zu", type, rows);
   if (columns > 1)
     text_add(text, " %zu", columns);
-  text_add(text, "\">" RESULT_HDF5 ":/frames/%08zu/", frame);
+  text_add(text, "\">" RESULT_HDF5 ":/");
+}
+
+static void add_item(struct text *text, const char *type, size_t rows, size_t columns, size_t frame,
+                     const char *body, const char *name)
+{
+  open_item(text, type, rows, columns);
+  text_add(text, "frames/%08zu/", frame);
   add_escaped(text, body);
   text_add(text, "/");
   add_escaped(text, name);
@@ -75,8 +86,6 @@ static const char *attribute_type(unsigned components)
     return "Scalar";
   case 3:
     return "Vector";
-  case 6:
-    return "Tensor6";
   case 9:
     return "Tensor";
   default:
@@ -97,21 +106,25 @@ static void add_attribute(struct text *text, const char *name, const char *numbe
 static void add_body(struct text *text, const struct frame_set *set, const struct frame_field *field,
                      size_t fields, size_t frame)
 {
+  char vertices[48];
   text_add(text, "        <Grid Name=\"");
   add_escaped(text, set->body);
+  vertices_name(set->count, vertices, sizeof vertices);
   text_add(text,
            "\" GridType=\"Uniform\">\n"
            "          <Topology TopologyType=\"Polyvertex\" NumberOfElements=\"%zu\" "
-           "NodesPerElement=\"1\"/>\n"
-           "          <Geometry GeometryType=\"XYZ\">\n",
+           "NodesPerElement=\"1\">\n",
            set->count);
+  open_item(text, "Int", set->count, 1); /* without it the newer reader shows no cells */
+  text_add(text, "%s</DataItem>\n          </Topology>\n", vertices);
+  text_add(text, "          <Geometry GeometryType=\"XYZ\">\n");
   add_item(text, "Float", set->count, 3, frame, set->body, "position");
   text_add(text, "          </Geometry>\n");
   add_attribute(text, "id", "Int", 1, set->count, frame, set->body);
   for (size_t i = 0; i < fields; ++i) {
     if (!is_position(&field[i]))
-      add_attribute(text, field[i].name, "Float", field[i].components, set->count, frame,
-                    set->body);
+      add_attribute(text, field[i].name, "Float", stored_components(&field[i]), set->count,
+                    frame, set->body);
   }
   text_add(text, "        </Grid>\n");
 }

@@ -83,7 +83,7 @@ static void test_read_back(void)
 
   result_frame_read(result, 4, "stress_yz", trace, &frame);
   double a = 0.5 / SAMPLE_COLUMNS, b = 0.5 / SAMPLE_ROWS;
-  tap_relative("stress_yz keeps its place in a reordered tensor", frame->body[1].value[0],
+  tap_relative("stress_yz keeps its place in a tensor written whole", frame->body[1].value[0],
                8e6 * (1 + a + 2 * b), 1e-14);
   tap_text("its unit", frame->unit, "Pa");
   result_frame_free(frame);
