@@ -9,9 +9,10 @@
 
 #include <gamut/status.h>
 
-/* A place in a text file. Strings are borrowed from the tree that was read. line and column from 1. */
+/* A place in a text file. Strings are borrowed from the tree that was read. line and column
+ * from 1. */
 struct place {
-  const char *file;   /* null: no place */
+  const char *file; /* null: no place */
   int line, column;
   int width;          /* characters to underline, at least 1 */
   const char *source; /* the whole line, without its end; null if not known */
@@ -25,12 +26,12 @@ struct trace *trace_new(void);
 void trace_free(struct trace *); /* accepts null */
 
 /* Records a message and returns `status`. printf format. A message is kept once if it is repeated
- * word for word at the same place; after 50 errors (and 50 warnings) the rest is counted only. A null
- * trace throws the words away, here and below. */
+ * word for word at the same place; after 50 errors (and 50 warnings) the rest is counted only. A
+ * null trace throws the words away, here and below. */
 gamut_status trace_fail(struct trace *, gamut_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* The full form: place (copied), scene path ("materials.copper.strength.A" or null), what was expected
- * or what to do (or null). */
+/* The full form: place (copied), scene path ("materials.copper.strength.A" or null), what was
+ * expected or what to do (or null). */
 gamut_status trace_fail_at(struct trace *, gamut_status status, const struct place *,
                            const char *path, const char *expected, const char *format, ...)
     __attribute__((format(printf, 6, 7)));

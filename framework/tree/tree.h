@@ -26,10 +26,10 @@ struct tree {
 /* Limits that keep hostile files harmless; beyond them the file is refused in words. */
 enum { TREE_BYTES_MAX = 4 << 20, TREE_DEPTH_MAX = 32, TREE_NODES_MAX = 200000 };
 
-/* Reads one YAML document. Refused with GAMUT_SCENE (or GAMUT_PLUGIN, as `blame` says), each with its
- * place: unreadable, empty or binary file, syntax errors, duplicate keys, keys that are no scalars,
- * tags (!name), several documents, aliases that repeat without bound, the limits above. An alias is
- * copied: its nodes have the place of what it repeats, its key its own. */
+/* Reads one YAML document. Refused with GAMUT_SCENE (or GAMUT_PLUGIN, as `blame` says), each with
+ * its place: unreadable, empty or binary file, syntax errors, duplicate keys, keys that are no
+ * scalars, tags (!name), several documents, aliases that repeat without bound, the limits above. An
+ * alias is copied: its nodes have the place of what it repeats, its key its own. */
 gamut_status tree_read(const char *file, gamut_status blame, struct trace *, struct tree **root);
 /* The same from memory; `name` stands for the file. */
 gamut_status tree_parse(const char *text, size_t size, const char *name, gamut_status blame,
@@ -43,17 +43,19 @@ struct tree *tree_at(const struct tree *t, const char *path);
 /* Writes the node's scene path, without the root. Returns buffer. */
 char *tree_path(const struct tree *t, char *buffer, size_t size);
 
-/* Deep copy; parent is null, `used` is false. The texts that places point into live as long as any node
- * that came from them, in copies and merged trees too. Null without memory. */
+/* Deep copy; parent is null, `used` is false. The texts that places point into live as long as any
+ * node that came from them, in copies and merged trees too. Null without memory. */
 struct tree *tree_copy(const struct tree *t);
-/* Puts `over` into `base`: mappings key by key, everything else replaces. `over` is consumed. Used for
- * include (the including file wins) and --set. */
+/* Puts `over` into `base`: mappings key by key, everything else replaces. `over` is consumed. Used
+ * for include (the including file wins) and --set. */
 void tree_merge(struct tree *base, struct tree *over);
-/* Sets base.path = value, making mappings on the way; value (a root) is consumed. Of a list only items
- * that are there can be set. Refused with GAMUT_USAGE at the value's place, base unchanged. */
+/* Sets base.path = value, making mappings on the way; value (a root) is consumed. Of a list only
+ * items that are there can be set. Refused with GAMUT_USAGE at the value's place; base is then
+ * unchanged. */
 gamut_status tree_put(struct tree *base, const char *path, struct tree *value, struct trace *);
 
-/* Writes the tree as YAML that reads back to the same tree. Ask ferror(stream) for failures. */
+/* Writes the tree as YAML that reads back to the same tree (odd plain text in quotes).
+ * Ask ferror(stream) for failures. */
 void tree_write(const struct tree *t, FILE *);
 
 #endif
