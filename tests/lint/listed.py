@@ -9,7 +9,8 @@ def words(*paths):
     found = set()
     for path in paths:
         if os.path.exists(os.path.join(tap.ROOT, path)):
-            found.update(tap.read(path).split())
+            for line in tap.read(path).split("\n"):
+                found.update(line.split("#")[0].split())
     return found
 
 
@@ -33,6 +34,5 @@ tap.check("every unit test is listed",
 tap.check("every listed file is there",
           [w for w in sorted(listed) if w.endswith((".c", ".h", ".sh", ".py")) and "/" in w
            and "$" not in w and w.split("/")[0] in ("framework", "plugins", "tests")
-           and "NAME" not in w and "FILE" not in w
            and not os.path.exists(os.path.join(tap.ROOT, w))])
 tap.done()
