@@ -20,7 +20,7 @@ struct tree {
   struct tree *parent;    /* null for a root */
   struct tree **child;    /* owned, in the order of the file */
   size_t children;
-  bool used;              /* set by whoever has understood the node */
+  bool used; /* set by whoever has understood the node */
 };
 
 /* Limits that keep hostile files harmless; beyond them the file is refused in words. */

@@ -57,24 +57,9 @@ static void test_values(const struct units *units)
 
 static void test_refusals(const struct units *units)
 {
-  static const char *const no_number[] = {"",
-                                          "39ab",
-                                          "39ab m",
-                                          "m",
-                                          "1,5 m",
-                                          "0x10 m",
-                                          "5%",
-                                          "5m",
-                                          "1e m",
-                                          "--1 m",
-                                          "1.2.3",
-                                          "1e5e5 m",
-                                          "+ 5 m",
-                                          "copper",
-                                          "e m",
-                                          ". m",
-                                          "\xC2\xA0"
-                                          "5 m"};
+  static const char *const no_number[] = {
+      "",      "39ab",  "39ab m",  "m",     "1,5 m",  "0x10 m", "5%",  "5m",        "1e m",
+      "--1 m", "1.2.3", "1e5e5 m", "+ 5 m", "copper", "e m",    ". m", "5\xC2\xA0m"};
   for (size_t k = 0; k < sizeof no_number / sizeof *no_number; k++)
     refuse(units, no_number[k], "m", UNIT_NOT_A_NUMBER);
   static const char *const no_value[] = {"nan",  "NaN m",   "inf",    "-inf m",   "Infinity m",
