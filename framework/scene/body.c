@@ -1,0 +1,168 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static const char *const own_keys[] = {"material", "shape",    "velocity",
+                                       "temperature", "pressure", "energy"};
+static const char *const space[] = {"x", "y", "z"};
+
+static const struct parameter initial_parameters[] = {
+    {.name = "temperature", .unit = "K", .type = VALUE_REAL, .optional = true,
+     .physical = {true, 0, INFINITY, true, true}},
+    {.name = "pressure", .unit = "Pa", .type = VALUE_REAL, .optional = true},
+    {.name = "energy", .unit = "J/m3", .type = VALUE_REAL, .optional = true},
+};
+
+/* One component: a number with its unit, or arithmetic in x, y, z. Text in quotes without a unit is
+ * arithmetic; so is what cannot be a quantity but can be computed. */
+static void component_read(struct reading *reading, const struct tree *node,
+                           struct gamut_body *body, size_t k)
+{
+  char why[256] = "";
+  enum unit_result result = UNIT_NOT_A_NUMBER;
+  if (node->kind == TREE_SCALAR)
+    result = unit_read(reading->units, node->text, "m/s", &body->velocity[k]);
+  bool arithmetic = result == UNIT_NOT_A_NUMBER || result == UNIT_UNKNOWN ||
+                    (result == UNIT_MISSING && node->quoted);
+  if (result == UNIT_OK)
+    return;
+  if (node->kind == TREE_SCALAR && node->text[0] && arithmetic) {
+    body->velocity_expression[k] = expression_new(node->text, space, 3, why, sizeof why);
+    if (body->velocity_expression[k])
+      return;
+  }
+  if (node->quoted && arithmetic)
+    blame_value(reading, node, "arithmetic in x, y, z (metres) that gives m/s",
+                "cannot read the velocity '%.60s': %s", node->text, why);
+  else
+    number_read(reading, node, "velocity", "m/s", &body->velocity[k]);
+}
+
+static void velocity_read(struct reading *reading, const struct tree *node,
+                          struct gamut_body *body)
+{
+  unsigned axes = reading->axes ? reading->axes : 3;
+  static const char *const example[] = {"", "[100 m/s]", "[0 m/s, -100 m/s]",
+                                        "[0 m/s, 0 m/s, -100 m/s]"};
+  char expected[160];
+  snprintf(expected, sizeof expected, "%u component%s in brackets, such as %s", axes,
+           axes == 1 ? "" : "s", example[axes]);
+  if (node->kind != TREE_SEQUENCE)
+    blame_value(reading, node, expected, "'velocity' is %s where a vector is due",
+                node->kind == TREE_MAPPING ? "a mapping"
+                : node->text[0]            ? "a number"
+                                           : "empty");
+  else if (node->children != axes)
+    blame_value(reading, node, expected, "'velocity' has %zu component%s", node->children,
+                node->children == 1 ? "" : "s");
+  else
+    for (size_t k = 0; k < axes; k++)
+      component_read(reading, node->child[k], body, k);
+}
+
+static void material_find(struct reading *reading, const struct tree *node, const char *what,
+                          struct gamut_body *body)
+{
+  const struct scene *scene = reading->scene;
+  char expected[WORDS_SIZE], path[PATH_SIZE];
+  const struct tree *given = tree_get(node, "material");
+  if (!given) {
+    snprintf(path, sizeof path, "bodies.%s.material", body->name);
+    blame_missing(reading, node, path, "the name of one of the materials",
+                  "'material' is missing in %s", what);
+    return;
+  }
+  const char *name = text_read(reading, given, "material");
+  const char **known = scene_take(scene->materials, sizeof *known);
+  bool found = false;
+  for (size_t i = 0; i < scene->materials; i++) {
+    known[i] = scene->material[i].name;
+    if (name && strcmp(known[i], name) == 0) {
+      body->material = i;
+      found = true;
+    }
+  }
+  if (name && !found)
+    blame_value(reading, given, suggest(name, known, scene->materials, expected, sizeof expected),
+                "unknown material '%.60s'", name);
+  free(known);
+}
+
+static void initial_read(struct reading *reading, const struct tree *node, const char *path,
+                         const char *what, struct gamut_body *body)
+{
+  /* Other keys have been checked with those of the solver. */
+  const char **keys = scene_take(node->children, sizeof *keys);
+  for (size_t i = 0; i < node->children; i++)
+    keys[i] = node->child[i]->key;
+  struct section section = {.parameter = initial_parameters,
+                            .count = COUNT_OF(initial_parameters), .node = node, .path = path,
+                            .what = what, .also = keys, .others = node->children};
+  struct values *own = section_read(reading, &section);
+  body->temperature = own->value[0].present ? own->value[0].real : 298;
+  body->has_pressure = own->value[1].present;
+  body->pressure = own->value[1].real;
+  body->has_energy = own->value[2].present;
+  body->energy = own->value[2].real;
+  if (own->value[1].given && own->value[2].given)
+    blame_key(reading, own->value[2].node, "one of them; the eos gives the other",
+              "'pressure' and 'energy' are both given in %s", what);
+  values_free(own);
+  free(keys);
+}
+
+static void body_read(struct reading *reading, const struct tree *node, struct gamut_body *body)
+{
+  char path[PATH_SIZE], what[160];
+  const struct descriptor *solver = reading->scene->solver.descriptor;
+  expect_name(reading, node, "a body");
+  snprintf(what, sizeof what, "body '%s'", node->key);
+  if (!expect_mapping(reading, node, what))
+    return;
+  tree_path(node, path, sizeof path);
+
+  if (solver) {
+    struct section section = {.parameter = solver->body_parameter,
+                              .count = solver->body_parameters, .node = node, .path = path,
+                              .what = what, .also = own_keys, .others = COUNT_OF(own_keys)};
+    neighbour_add(reading, "under 'solver:'", solver->parameter, solver->parameters, NULL, 0);
+    body->solver_values = section_read(reading, &section);
+    reading->neighbours = 0;
+  }
+  material_find(reading, node, what, body);
+  initial_read(reading, node, path, what, body);
+
+  const struct tree *velocity = tree_get(node, "velocity"), *shape = tree_get(node, "shape");
+  if (velocity)
+    velocity_read(reading, velocity, body);
+  if (shape) {
+    shape_read(reading, shape, &body->shape);
+  } else if (reading->axes) {
+    char missing[PATH_SIZE + 8];
+    snprintf(missing, sizeof missing, "%s.shape", path);
+    blame_missing(reading, node, missing, "shape: {box:}, {cylinder:} or {sphere:}",
+                  "'shape' is missing in %s", what);
+  }
+}
+
+void bodies_read(struct reading *reading, const struct tree *root)
+{
+  struct scene *scene = reading->scene;
+  const struct tree *node = tree_get(root, "bodies");
+  if (!node) {
+    blame_missing(reading, root, "bodies", "bodies: {NAME: {material:, shape:, ...}}",
+                  "'bodies' is missing");
+    return;
+  }
+  if (!expect_mapping(reading, node, "'bodies'"))
+    return;
+  scene->body = scene_take(node->children, sizeof *scene->body);
+  scene->bodies = node->children;
+  for (size_t i = 0; i < node->children; i++) {
+    scene->body[i] = (struct gamut_body){
+        .name = node->child[i]->key, .index = i, .temperature = 298, .node = node->child[i]};
+    body_read(reading, node->child[i], &scene->body[i]);
+  }
+}

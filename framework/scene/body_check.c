@@ -1,0 +1,147 @@
+/* What bodies must be to each other, to the domain and to the grid. */
+#include <math.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static unsigned axes_of(const struct reading *reading)
+{
+  return reading->axes ? reading->axes : 3;
+}
+
+/* ---- overlaps ---------------------------------------------------------------------------------- */
+
+/* Common part of the bounds of two bodies; false where there is none. Bodies that touch share none:
+ * round-off of their places is allowed for. */
+static bool common_bounds(const struct reading *reading, const struct gamut_body *one,
+                          const struct gamut_body *two, double lower[3], double upper[3])
+{
+  double low[3], high[3];
+  shape_extent(reading, &one->shape, lower, upper);
+  shape_extent(reading, &two->shape, low, high);
+  for (unsigned k = 0; k < axes_of(reading); k++) {
+    double scale = fmin(upper[k] - lower[k], high[k] - low[k]);
+    lower[k] = fmax(lower[k], low[k]);
+    upper[k] = fmin(upper[k], high[k]);
+    if (!(upper[k] - lower[k] > 1e-9 * scale))
+      return false;
+  }
+  return true;
+}
+
+/* Boxes overlap where their bounds do. Other shapes are tried on a lattice of up to 10^5 points. */
+static bool overlap(const struct reading *reading, const struct gamut_body *one,
+                    const struct gamut_body *two, double where[3])
+{
+  double lower[3], upper[3], step[3] = {0};
+  static const size_t fineness[] = {0, 20000, 250, 44};
+  unsigned axes = axes_of(reading);
+  size_t points = 1, n = fineness[axes];
+  if (!common_bounds(reading, one, two, lower, upper))
+    return false;
+  bool boxes = one->shape.kind == SHAPE_BOX && two->shape.kind == SHAPE_BOX;
+  double margin = INFINITY;
+  for (unsigned k = 0; k < 3; k++) {
+    where[k] = k < axes ? 0.5 * (lower[k] + upper[k]) : 0;
+    if (k >= axes)
+      continue;
+    step[k] = (upper[k] - lower[k]) / (double)n;
+    margin = fmin(margin, 1e-6 * step[k]);
+    points *= n;
+  }
+  if (boxes)
+    return true;
+  for (size_t i = 0; i < points; i++) {
+    size_t rest = i;
+    for (unsigned k = 0; k < axes; k++, rest /= n)
+      where[k] = lower[k] + step[k] * ((double)(rest % n) + 0.5);
+    if (shape_inside(&one->shape, where, margin) && shape_inside(&two->shape, where, margin))
+      return true;
+  }
+  return false;
+}
+
+static const struct tree *shape_node(const struct gamut_body *body)
+{
+  return tree_get(body->node, "shape");
+}
+
+static void overlaps_check(struct reading *reading)
+{
+  const struct scene *scene = reading->scene;
+  for (size_t i = 0; i < scene->bodies; i++)
+    for (size_t k = i + 1; k < scene->bodies; k++) {
+      const struct gamut_body *one = &scene->body[i], *two = &scene->body[k];
+      double x[3];
+      char where[128] = "";
+      if (one->shape.kind == SHAPE_NONE || two->shape.kind == SHAPE_NONE ||
+          !overlap(reading, one, two, x))
+        continue;
+      size_t length = 0;
+      for (unsigned c = 0; c < axes_of(reading); c++)
+        length += (size_t)snprintf(where + length, sizeof where - length, "%s%.4g", c ? ", " : "",
+                                   x[c]);
+      blame_key(reading, shape_node(two), "bodies may touch, not overlap",
+                "bodies '%s' and '%s' overlap, for example at (%s) m", one->name, two->name, where);
+    }
+}
+
+/* ---- domain and grid ----------------------------------------------------------------------------- */
+
+static void domain_check(struct reading *reading, const struct gamut_body *body)
+{
+  const struct values *solver = reading->scene->solver.values;
+  const struct value *domain = values_find(solver, "domain");
+  const struct value *min = values_find(solver, "domain.min");
+  const struct value *max = values_find(solver, "domain.max");
+  double lower[3], upper[3];
+  char expected[160];
+  if (!domain || !domain->given || !min || !max || !min->number || !max->number)
+    return;
+  shape_extent(reading, &body->shape, lower, upper);
+  for (unsigned k = 0; k < axes_of(reading) && k < min->numbers && k < max->numbers; k++) {
+    double from = min->number[k], to = max->number[k];
+    double slack = 1e-9 * (to - from);
+    if (lower[k] >= from - slack && upper[k] <= to + slack)
+      continue;
+    snprintf(expected, sizeof expected, "solver.domain goes from %c = %.6g m to %.6g m", "xyz"[k],
+             from, to);
+    blame_key(reading, shape_node(body), expected,
+              "body '%s' is outside the domain: it goes from %c = %.6g m to %.6g m", body->name,
+              "xyz"[k], lower[k], upper[k]);
+  }
+}
+
+static void cell_check(struct reading *reading, const struct gamut_body *body)
+{
+  const struct value *cell = values_find(reading->scene->solver.values, "cell");
+  double lower[3], upper[3], smallest = INFINITY;
+  char axis = 'x', expected[160];
+  if (!cell || !cell->present || cell->parameter->type != VALUE_REAL ||
+      !unit_alike(reading->units, cell->parameter->unit, "m"))
+    return;
+  shape_extent(reading, &body->shape, lower, upper);
+  for (unsigned k = 0; k < axes_of(reading); k++)
+    if (upper[k] - lower[k] < smallest) {
+      smallest = upper[k] - lower[k];
+      axis = "xyz"[k];
+    }
+  if (!(cell->real > smallest))
+    return;
+  snprintf(expected, sizeof expected, "at most %.6g m, better a tenth of it", smallest);
+  blame_value(reading, cell->node, expected,
+              "cell = %.6g m is larger than body '%s', which has %.6g m along %c", cell->real,
+              body->name, smallest, axis);
+}
+
+void bodies_check(struct reading *reading)
+{
+  const struct scene *scene = reading->scene;
+  for (size_t i = 0; i < scene->bodies; i++) {
+    if (scene->body[i].shape.kind == SHAPE_NONE)
+      continue;
+    domain_check(reading, &scene->body[i]);
+    cell_check(reading, &scene->body[i]);
+  }
+  overlaps_check(reading);
+}

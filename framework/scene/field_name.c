@@ -1,0 +1,92 @@
+/* Fields that quantities and outputs may name: those of the vocabulary that live at points, and the
+ * states and own outputs of the plugins that the scene names. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "field/vocabulary.h"
+#include "scene/reading.h"
+
+struct search {
+  const char *wanted; /* null: collect all names */
+  bool component;
+  const char *unit;   /* found */
+  struct reading *reading;
+  const char **name;
+  size_t names, capacity;
+};
+
+static void collect(struct search *search, const char *name)
+{
+  if (has_name(search->name, search->names, name))
+    return;
+  if (search->names == search->capacity) {
+    search->capacity = 2 * search->capacity + 64;
+    const char **more = scene_take(search->capacity, sizeof *more);
+    if (search->names)
+      memcpy(more, search->name, search->names * sizeof *more);
+    free(search->name);
+    search->name = more;
+  }
+  search->name[search->names++] = name;
+}
+
+static void visit(struct search *search, const char *field, unsigned components, const char *unit)
+{
+  if (components == 1 || !search->component) {
+    if (!search->wanted)
+      collect(search, field);
+    else if (strcmp(search->wanted, field) == 0)
+      search->unit = unit;
+  }
+  for (unsigned k = 0; components > 1 && k < components; k++) {
+    char name[160];
+    snprintf(name, sizeof name, "%.100s_%s", field, component_name(components, k));
+    if (!search->wanted)
+      collect(search, scene_text(search->reading, "%s", name));
+    else if (strcmp(search->wanted, name) == 0)
+      search->unit = unit;
+  }
+}
+
+static void visit_plugin(struct search *search, const struct descriptor *descriptor)
+{
+  if (!descriptor)
+    return;
+  for (size_t i = 0; i < descriptor->states; i++)
+    visit(search, descriptor->state[i].name, descriptor->state[i].components,
+          descriptor->state[i].unit);
+  for (size_t i = 0; i < descriptor->outputs; i++)
+    if (descriptor->output[i].unit && !vocabulary_find(descriptor->output[i].name))
+      visit(search, descriptor->output[i].name, descriptor->output[i].components,
+            descriptor->output[i].unit);
+}
+
+static void visit_all(struct search *search, const struct scene *scene)
+{
+  for (size_t i = 0; vocabulary_at(i); i++)
+    if (vocabulary_at(i)->where == GAMUT_AT_POINT)
+      visit(search, vocabulary_at(i)->name, vocabulary_at(i)->components, vocabulary_at(i)->unit);
+  for (size_t i = 0; i < scene->materials; i++) {
+    visit_plugin(search, scene->material[i].eos.descriptor);
+    visit_plugin(search, scene->material[i].strength.descriptor);
+    visit_plugin(search, scene->material[i].elasticity.descriptor);
+  }
+  for (size_t i = 0; i < scene->effects; i++)
+    visit_plugin(search, scene->effect[i].instance.descriptor);
+  visit_plugin(search, scene->solver.descriptor);
+}
+
+const char *field_unit(const struct reading *reading, const char *name, bool component)
+{
+  struct search search = {.wanted = name, .component = component};
+  visit_all(&search, reading->scene);
+  return search.unit;
+}
+
+const char **field_names(struct reading *reading, bool component, size_t *count)
+{
+  struct search search = {.component = component, .reading = reading};
+  visit_all(&search, reading->scene);
+  *count = search.names;
+  return search.name;
+}

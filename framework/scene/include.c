@@ -1,0 +1,279 @@
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "scene/reading.h"
+
+enum { INCLUDE_DEPTH_MAX = 16, ANCESTORS_MAX = 32 };
+
+/* The files that are being read, outermost first. */
+struct chain {
+  const char *shown[INCLUDE_DEPTH_MAX];
+  char *real[INCLUDE_DEPTH_MAX];
+  size_t depth;
+};
+
+static void drop_child(struct tree *node, size_t index)
+{
+  struct tree *child = node->child[index];
+  child->parent = NULL;
+  tree_free(child);
+  node->children--;
+  memmove(node->child + index, node->child + index + 1,
+          (node->children - index) * sizeof *node->child);
+}
+
+static void drop_key(struct tree *node, const char *key)
+{
+  for (size_t i = 0; i < node->children; i++)
+    if (strcmp(node->child[i]->key, key) == 0) {
+      drop_child(node, i);
+      return;
+    }
+}
+
+/* Where a key `model` names a plugin: solver, materials.*.*, effects.*, uncertainty.estimator. */
+static bool names_plugin(const struct tree *node)
+{
+  char path[PATH_SIZE];
+  tree_path(node, path, sizeof path);
+  size_t dots = 0;
+  for (const char *c = path; *c; c++)
+    dots += *c == '.';
+  return strcmp(path, "solver") == 0 || strcmp(path, "uncertainty.estimator") == 0 ||
+         (strncmp(path, "effects.", 8) == 0 && dots == 1) ||
+         (strncmp(path, "materials.", 10) == 0 && dots == 2);
+}
+
+/* Parameters of one plugin mean nothing to another: where `over` names another model than `base`,
+ * nothing of the old one stays. */
+static void forget_other_models(struct tree *base, const struct tree *over)
+{
+  if (base->kind != TREE_MAPPING || over->kind != TREE_MAPPING)
+    return;
+  const struct tree *old = tree_get(base, "model"), *new = tree_get(over, "model");
+  if (old && new && strcmp(old->text, new->text) != 0 && names_plugin(base))
+    while (base->children)
+      drop_child(base, base->children - 1);
+  for (size_t i = 0; i < base->children; i++) {
+    const struct tree *child = tree_get(over, base->child[i]->key);
+    if (child)
+      forget_other_models(base->child[i], child);
+  }
+}
+
+static bool exists(const char *path)
+{
+  return access(path, F_OK) == 0;
+}
+
+/* "a/b/" becomes "a/", "" and "../" become "../" and "../../". False where it gets too long. */
+static bool step_up(char *folder, size_t size)
+{
+  size_t length = strlen(folder), last = length ? length - 1 : 0;
+  while (last > 0 && folder[last - 1] != '/')
+    last--;
+  if (length > 0 && strcmp(folder + last, "../") != 0) {
+    folder[last] = 0;
+    return true;
+  }
+  if (length + 4 > size)
+    return false;
+  memcpy(folder + length, "../", 4);
+  return true;
+}
+
+/* Looks beside the including file, in the folders `inputs` at and above it, in the installed one. */
+static bool locate(const char *from, const char *name, char *path, size_t size)
+{
+  const char *slash = strrchr(from, '/');
+  char folder[PATH_MAX], real[PATH_MAX];
+  snprintf(path, size, "%s", name);
+  if (name[0] == '/')
+    return exists(path);
+  snprintf(folder, sizeof folder, "%.*s", slash ? (int)(slash - from + 1) : 0, from);
+  snprintf(path, size, "%s%s", folder, name);
+  if (exists(path))
+    return true;
+  for (int i = 0; i < ANCESTORS_MAX; i++) {
+    if (!realpath(folder[0] ? folder : ".", real))
+      break;
+    const char *last = strrchr(real, '/');
+    snprintf(path, size, "%s%s", folder, name);
+    if (last && strcmp(last + 1, "inputs") == 0 && exists(path))
+      return true;
+    snprintf(path, size, "%sinputs/%s", folder, name);
+    if (exists(path))
+      return true;
+    if (strcmp(real, "/") == 0 || !step_up(folder, sizeof folder))
+      break;
+  }
+#ifdef GAMUT_DATA_DIR
+  snprintf(path, size, "%s/%s", GAMUT_DATA_DIR, name);
+  if (exists(path))
+    return true;
+#endif
+  return false;
+}
+
+static const char *chain_text(const struct chain *chain, const char *last, char *buffer,
+                              size_t size)
+{
+  size_t length = 0;
+  buffer[0] = 0;
+  for (size_t i = 0; i < chain->depth && length < size; i++)
+    length += (size_t)snprintf(buffer + length, size - length, "%s includes ", chain->shown[i]);
+  if (length < size)
+    snprintf(buffer + length, size - length, "%s", last);
+  return buffer;
+}
+
+static bool file_read(struct reading *, const char *file, const struct tree *item, struct chain *,
+                      struct tree **);
+
+static bool item_read(struct reading *reading, const struct tree *item, struct chain *chain,
+                      struct tree **root)
+{
+  char path[2 * PATH_MAX], words[WORDS_SIZE];
+  const char *text = text_read(reading, item, "include");
+  if (!text)
+    return false;
+  if (!locate(chain->shown[chain->depth - 1], text, path, sizeof path)) {
+    blame_value(reading, item,
+                "a path from this file's folder, or from a folder 'inputs' above it",
+                "included file '%s' is not found (%s)", text,
+                chain_text(chain, text, words, sizeof words));
+    return false;
+  }
+  return file_read(reading, path, item, chain, root);
+}
+
+static bool version_check(struct reading *reading, const struct tree *root)
+{
+  const struct tree *version = tree_get(root, "gamut");
+  if (!version)
+    blame_missing(reading, root, "gamut", "the first line of a scene or card is 'gamut: 1'",
+                  "'gamut' is missing");
+  else if (version->kind != TREE_SCALAR || strcmp(version->text, "1") != 0)
+    blame_value(reading, version, "gamut: 1", "this gamut reads scenes of format 1");
+  else
+    return true;
+  return false;
+}
+
+/* Puts what the file includes below it: later ones win over earlier ones, the file over all. */
+static bool includes_read(struct reading *reading, struct chain *chain, struct tree **root)
+{
+  const struct tree *include = tree_get(*root, "include");
+  struct tree *base = NULL, *one;
+  bool fine = true;
+  if (!include)
+    return true;
+  size_t items = include->kind == TREE_SEQUENCE ? include->children : 1;
+  for (size_t i = 0; i < items; i++) {
+    if (!item_read(reading, include->kind == TREE_SEQUENCE ? include->child[i] : include, chain,
+                   &one)) {
+      fine = false;
+    } else if (!base) {
+      base = one;
+    } else {
+      forget_other_models(base, one);
+      tree_merge(base, one);
+    }
+  }
+  drop_key(*root, "include");
+  if (base) {
+    forget_other_models(base, *root);
+    tree_merge(base, *root);
+    *root = base;
+  }
+  return fine;
+}
+
+/* Whether the file is being read already; `item` is the line that asks for it again. */
+static bool is_circular(struct reading *reading, const char *file, const char *real,
+                        const struct tree *item, const struct chain *chain)
+{
+  char words[WORDS_SIZE];
+  bool again = false;
+  for (size_t i = 0; i < chain->depth && real; i++)
+    again = again || (chain->real[i] && strcmp(chain->real[i], real) == 0);
+  if (again)
+    blame_value(reading, item, "a file that does not lead back to itself", "circular include: %s",
+                chain_text(chain, file, words, sizeof words));
+  else if (chain->depth == INCLUDE_DEPTH_MAX)
+    blame_value(reading, item, NULL, "includes are nested deeper than %d", INCLUDE_DEPTH_MAX);
+  return again || chain->depth == INCLUDE_DEPTH_MAX;
+}
+
+static bool file_read(struct reading *reading, const char *file, const struct tree *item,
+                      struct chain *chain, struct tree **root)
+{
+  *root = NULL;
+  char *real = realpath(file, NULL);
+  if (is_circular(reading, file, real, item, chain)) {
+    free(real);
+    return false;
+  }
+  gamut_status status = tree_read(file, GAMUT_SCENE, reading->trace, root);
+  if (status != GAMUT_OK) {
+    reading->faults++;
+    reading->first = reading->first ? reading->first : status;
+    free(real);
+    return false;
+  }
+  chain->shown[chain->depth] = file;
+  chain->real[chain->depth++] = real;
+  bool fine = expect_mapping(reading, *root, "the file") && version_check(reading, *root);
+  fine = includes_read(reading, chain, root) && fine;
+  free(chain->real[--chain->depth]);
+  return fine || (*root)->kind == TREE_MAPPING;
+}
+
+static bool sets_model(const struct scene_override *override)
+{
+  size_t length = strlen(override->path);
+  return length > 6 && strcmp(override->path + length - 6, ".model") == 0;
+}
+
+static void override_put(struct reading *reading, struct tree *root,
+                         const struct scene_override *override)
+{
+  char name[PATH_SIZE], parent[PATH_SIZE];
+  struct tree *value = NULL;
+  snprintf(name, sizeof name, "--set %s", override->path);
+  gamut_status status = tree_parse(override->value, strlen(override->value), name, GAMUT_SCENE,
+                                   reading->trace, &value);
+  if (status == GAMUT_OK && sets_model(override)) {
+    snprintf(parent, sizeof parent, "%.*s", (int)strlen(override->path) - 6, override->path);
+    struct tree *node = tree_at(root, parent);
+    const struct tree *old = tree_get(node, "model");
+    if (old && names_plugin(node) && strcmp(old->text, value->text) != 0)
+      while (node->children)
+        drop_child(node, node->children - 1);
+  }
+  if (status == GAMUT_OK)
+    status = tree_put(root, override->path, value, reading->trace);
+  if (status != GAMUT_OK) {
+    reading->faults++;
+    reading->first = reading->first ? reading->first : status;
+  }
+}
+
+struct tree *include_read(struct reading *reading, const char *file,
+                          const struct scene_override *override, size_t overrides)
+{
+  struct chain chain = {.depth = 0};
+  struct tree *root;
+  if (!file_read(reading, file, NULL, &chain, &root) || root->kind != TREE_MAPPING) {
+    tree_free(root);
+    return NULL;
+  }
+  /* Models first: choosing one drops the parameters of another, not those that are set with it. */
+  for (int pass = 0; pass < 2; pass++)
+    for (size_t i = 0; i < overrides; i++)
+      if (sets_model(&override[i]) == (pass == 0))
+        override_put(reading, root, &override[i]);
+  return root;
+}

@@ -1,0 +1,127 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+/* The node that names the plugin: the value of `model`, or the scalar itself. */
+static const struct tree *model_node(const struct tree *node)
+{
+  return node && node->kind == TREE_MAPPING ? tree_get(node, "model") : node;
+}
+
+const struct descriptor *instance_peek(const struct reading *reading, enum gamut_kind kind,
+                                       const struct tree *node)
+{
+  char id[160];
+  const struct tree *model = model_node(node);
+  if (!model || model->kind != TREE_SCALAR)
+    return NULL;
+  snprintf(id, sizeof id, "%s/%.120s", kind_name(kind), model->text);
+  return registry_find(reading->registry, id);
+}
+
+static void blame_model(struct reading *reading, enum gamut_kind kind, const struct tree *node,
+                        const char *what)
+{
+  char expected[WORDS_SIZE] = "", list[WORDS_SIZE - 64];
+  size_t count = 0, all = registry_count(reading->registry);
+  const char **name = scene_take(all, sizeof *name);
+  for (size_t i = 0; i < all; i++) {
+    const struct descriptor *descriptor = registry_at(reading->registry, i);
+    if (descriptor->kind == kind)
+      name[count++] = descriptor->name;
+  }
+  snprintf(expected, sizeof expected, "installed: %s", list_text(name, count, list, sizeof list));
+  char path[PATH_SIZE - 16], model[PATH_SIZE];
+  tree_path(node, path, sizeof path);
+  snprintf(model, sizeof model, "%s.model", path);
+  blame_missing(reading, node, model, expected, "'model' is missing in '%s'", what);
+  free(name);
+}
+
+void instance_read(struct reading *reading, enum gamut_kind kind, const char *name,
+                   const struct tree *node, const char *const *also, size_t others,
+                   struct instance *instance)
+{
+  char path[PATH_SIZE], what[160];
+  const struct tree *model = model_node(node), *here = reading->here;
+  *instance = (struct instance){.name = name, .node = node};
+  if (node->kind == TREE_SEQUENCE) {
+    expect_mapping(reading, node, name);
+    return;
+  }
+  if (!model || model->kind != TREE_SCALAR || model->text[0] == 0) {
+    blame_model(reading, kind, node, name);
+    return;
+  }
+  tree_path(model, path, sizeof path);
+  const struct descriptor *descriptor = registry_expect(
+      reading->registry, kind, model->text, &model->place, path, reading->trace);
+  if (!descriptor) {
+    reading->faults++;
+    reading->first = reading->first ? reading->first : GAMUT_SCENE;
+    return;
+  }
+  instance->descriptor = descriptor;
+  const char **known = scene_take(others + 1, sizeof *known);
+  known[0] = "model";
+  for (size_t i = 0; i < others; i++)
+    known[i + 1] = also[i];
+  snprintf(what, sizeof what, "%s '%s'", kind_name(kind), descriptor->name);
+  tree_path(node, path, sizeof path);
+  reading->here = node;
+  struct section section = {descriptor, descriptor->parameter, descriptor->parameters,
+                            node->kind == TREE_MAPPING ? node : NULL, path, what, known,
+                            others + 1, false};
+  instance->values = section_read(reading, &section);
+  reading->here = here;
+  free(known);
+}
+
+static unsigned axes_of(const char *geometry)
+{
+  if (strcmp(geometry, "1d") == 0)
+    return 1;
+  return strcmp(geometry, "3d") == 0 ? 3 : 2;
+}
+
+/* The geometry counts the components of the solver's own vectors, so it is looked up before. */
+static void geometry_peek(struct reading *reading, const struct tree *node)
+{
+  const struct descriptor *descriptor = instance_peek(reading, GAMUT_KIND_SOLVER, node);
+  const struct parameter *parameter =
+      descriptor ? parameter_named(descriptor->parameter, descriptor->parameters, "geometry")
+                 : NULL;
+  if (!parameter || parameter->type != VALUE_CHOICE)
+    return;
+  const struct tree *given = tree_get(node, "geometry");
+  if (!given)
+    given = parameter->standard;
+  if (!given || !has_name(parameter->choice, parameter->choices, given->text))
+    return;
+  reading->axes = axes_of(given->text);
+  reading->axisymmetric = strcmp(given->text, "axisymmetric") == 0;
+}
+
+void solver_read(struct reading *reading, const struct tree *root)
+{
+  const struct tree *node = tree_get(root, "solver");
+  struct scene *scene = reading->scene;
+  if (!node) {
+    blame_missing(reading, root, "solver", "solver: {model: NAME, ...}",
+                  tree_get(root, "bodies") ? "'solver' is missing"
+                                           : "'solver' is missing: this is a card for 'include:'");
+    return;
+  }
+  geometry_peek(reading, node);
+  instance_read(reading, GAMUT_KIND_SOLVER, "solver", node, NULL, 0, &scene->solver);
+  const struct value *end = values_find(scene->solver.values, "end");
+  if (end && end->present && end->parameter->type == VALUE_REAL && !(end->real > 0))
+    blame_value(reading, end->node, "greater than 0", "the run ends before it begins");
+}
+
+const char *axis_unit(const struct reading *reading)
+{
+  const struct descriptor *solver = reading->scene->solver.descriptor;
+  return solver && solver->axis_unit ? solver->axis_unit : "s";
+}

@@ -1,0 +1,235 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static const char *const own_keys[] = {"density", "eos", "strength", "elasticity", "source"};
+
+static const struct parameter density_parameter[] = {{
+    .name = "density",
+    .unit = "kg/m3",
+    .doc = "density at zero compression",
+    .type = VALUE_REAL,
+    .random = true,
+    .physical = {true, 0, INFINITY, true, true},
+}};
+
+/* All material parameters that installed plugins declare, each name once; none is required here. */
+static const struct parameter *extra_parameters(struct reading *reading, size_t *count)
+{
+  size_t all = 0;
+  for (size_t i = 0; i < registry_count(reading->registry); i++)
+    all += registry_at(reading->registry, i)->material_parameters;
+  struct parameter *extra = scene_keep(reading, all, sizeof *extra);
+  *count = 0;
+  for (size_t i = 0; i < registry_count(reading->registry); i++) {
+    const struct descriptor *descriptor = registry_at(reading->registry, i);
+    for (size_t k = 0; k < descriptor->material_parameters; k++) {
+      if (parameter_named(extra, *count, descriptor->material_parameter[k].name))
+        continue;
+      extra[*count] = descriptor->material_parameter[k];
+      extra[(*count)++].optional = true;
+    }
+  }
+  return extra;
+}
+
+/* Where a key of one part of a material that stands in another part, or beside them, belongs. */
+static void neighbours_of(struct reading *reading, const struct tree *node, const char *part,
+                          const struct parameter *extra, size_t extras)
+{
+  static const struct {
+    const char *key, *where;
+    enum gamut_kind kind;
+  } parts[] = {{"eos", "under 'eos:'", GAMUT_KIND_EOS},
+               {"strength", "under 'strength:'", GAMUT_KIND_STRENGTH},
+               {"elasticity", "under 'elasticity:'", GAMUT_KIND_ELASTICITY}};
+  reading->neighbours = 0;
+  for (size_t i = 0; i < COUNT_OF(parts); i++) {
+    if (strcmp(parts[i].key, part) == 0)
+      continue;
+    const struct descriptor *d = instance_peek(reading, parts[i].kind, tree_get(node, parts[i].key));
+    if (!d && parts[i].kind == GAMUT_KIND_ELASTICITY && !tree_get(node, parts[i].key))
+      d = registry_find(reading->registry, "elasticity/hypoelastic");
+    if (d)
+      neighbour_add(reading, parts[i].where, d->parameter, d->parameters, NULL, 0);
+  }
+  if (part[0])
+    neighbour_add(reading, "one level up, to the material", extra, extras, own_keys,
+                  COUNT_OF(own_keys));
+}
+
+static void elasticity_default(struct reading *reading, struct material *material)
+{
+  char path[PATH_SIZE];
+  const struct descriptor *descriptor = registry_find(reading->registry, "elasticity/hypoelastic");
+  if (!descriptor) {
+    blame_key(reading, material->node, "state 'elasticity:'",
+              "elasticity/hypoelastic, the default, is not installed");
+    return;
+  }
+  snprintf(path, sizeof path, "materials.%s.elasticity", material->name);
+  reading->here = material->node;
+  struct section section = {.descriptor = descriptor, .parameter = descriptor->parameter,
+                            .count = descriptor->parameters, .path = path,
+                            .what = "elasticity 'hypoelastic'"};
+  material->elasticity = (struct instance){.name = "elasticity", .descriptor = descriptor};
+  material->elasticity.values = section_read(reading, &section);
+  reading->here = NULL;
+}
+
+/* What the elasticity calls must be there; what it does not call is left unused with a word. */
+static void laws_check(struct reading *reading, const struct material *material)
+{
+  const struct descriptor *elasticity = material->elasticity.descriptor;
+  if (!elasticity)
+    return;
+  static const char *const law[] = {"eos", "strength"};
+  for (size_t i = 0; i < COUNT_OF(law); i++) {
+    const struct tree *given = tree_get(material->node, law[i]);
+    const struct field_use *use = NULL;
+    for (size_t k = 0; k < elasticity->laws; k++)
+      if (strcmp(elasticity->law[k].name, law[i]) == 0)
+        use = &elasticity->law[k];
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "materials.%s.%s", material->name, law[i]);
+    if (use && !use->optional && !given)
+      blame_missing(reading, material->node, path, NULL,
+                    "'%s' is missing in material '%s': elasticity '%s' needs it", law[i],
+                    material->name, elasticity->name);
+    if (!use && given)
+      warn_value(reading, given, NULL, "'%s' of material '%s' is not used: elasticity '%s' takes none",
+                 law[i], material->name, elasticity->name);
+  }
+}
+
+static void source_check(struct reading *reading, const struct tree *source)
+{
+  for (size_t i = 0; source && i < source->children && source->kind == TREE_SEQUENCE; i++)
+    text_read(reading, source->child[i], "source");
+  if (source && source->kind != TREE_SEQUENCE)
+    text_read(reading, source, "source");
+}
+
+static void parts_read(struct reading *reading, const struct tree *node, struct material *material,
+                       const struct parameter *extra, size_t extras)
+{
+  const struct {
+    const char *key;
+    enum gamut_kind kind;
+    struct instance *instance;
+  } part[] = {{"eos", GAMUT_KIND_EOS, &material->eos},
+              {"strength", GAMUT_KIND_STRENGTH, &material->strength},
+              {"elasticity", GAMUT_KIND_ELASTICITY, &material->elasticity}};
+  for (size_t i = 0; i < COUNT_OF(part); i++) {
+    const struct tree *given = tree_get(node, part[i].key);
+    if (!given)
+      continue;
+    neighbours_of(reading, node, part[i].key, extra, extras);
+    instance_read(reading, part[i].kind, part[i].key, given, NULL, 0, part[i].instance);
+  }
+  reading->neighbours = 0;
+  if (!tree_get(node, "elasticity"))
+    elasticity_default(reading, material);
+}
+
+static void material_read(struct reading *reading, const struct tree *node,
+                          const struct parameter *extra, size_t extras, struct material *material)
+{
+  char path[PATH_SIZE], what[160];
+  *material = (struct material){.name = node->key, .node = node};
+  expect_name(reading, node, "a material");
+  snprintf(what, sizeof what, "material '%s'", node->key);
+  if (!expect_mapping(reading, node, what))
+    return;
+  tree_path(node, path, sizeof path);
+
+  neighbours_of(reading, node, "", extra, extras);
+  struct section section = {.parameter = extra, .count = extras, .node = node, .path = path,
+                            .what = what, .also = own_keys, .others = COUNT_OF(own_keys)};
+  material->extra = section_read(reading, &section);
+  reading->neighbours = 0;
+
+  /* Other keys have been checked above; density is read like any parameter. */
+  const char **keys = scene_take(node->children, sizeof *keys);
+  for (size_t i = 0; i < node->children; i++)
+    keys[i] = node->child[i]->key;
+  section = (struct section){.parameter = density_parameter, .count = 1, .node = node,
+                             .path = path, .what = what, .also = keys, .others = node->children};
+  struct values *own = section_read(reading, &section);
+  material->density = own->value[0].real;
+  material->density_random = own->value[0].random;
+  own->value[0].random = NULL;
+  values_free(own);
+  free(keys);
+
+  source_check(reading, tree_get(node, "source"));
+  parts_read(reading, node, material, extra, extras);
+  laws_check(reading, material);
+}
+
+void materials_read(struct reading *reading, const struct tree *root)
+{
+  struct scene *scene = reading->scene;
+  const struct tree *node = tree_get(root, "materials");
+  size_t extras;
+  if (!node) {
+    blame_missing(reading, root, "materials", "materials: {NAME: {density:, eos:, ...}}",
+                  "'materials' is missing");
+    return;
+  }
+  if (!expect_mapping(reading, node, "'materials'"))
+    return;
+  const struct parameter *extra = extra_parameters(reading, &extras);
+  scene->material = scene_take(node->children, sizeof *scene->material);
+  scene->materials = node->children;
+  for (size_t i = 0; i < node->children; i++)
+    material_read(reading, node->child[i], extra, extras, &scene->material[i]);
+}
+
+/* ---- what effects and elasticities ask of materials ---------------------------------------------- */
+
+static void needs_check(struct reading *reading, const struct descriptor *plugin, const char *who,
+                        const struct material *material)
+{
+  for (size_t i = 0; i < plugin->material_parameters; i++) {
+    const struct parameter *parameter = &plugin->material_parameter[i];
+    char path[PATH_SIZE], expected[WORDS_SIZE];
+    if (parameter->standard || parameter->optional || !material->extra ||
+        tree_get(material->node, parameter->name))
+      continue;
+    snprintf(path, sizeof path, "materials.%s.%s", material->name, parameter->name);
+    snprintf(expected, sizeof expected, "%s%s%s, %s",
+             unit_is_pure(parameter->unit) ? "a number" : "such as '",
+             unit_is_pure(parameter->unit) ? "" : unit_example(parameter->unit),
+             unit_is_pure(parameter->unit) ? "" : "'", parameter->doc ? parameter->doc : "");
+    blame_missing(reading, material->node, path, expected,
+                  "'%s' is missing in material '%s': %s needs it", parameter->name, material->name,
+                  who);
+  }
+}
+
+void material_needs(struct reading *reading)
+{
+  const struct scene *scene = reading->scene;
+  char who[160];
+  for (size_t m = 0; m < scene->materials; m++) {
+    const struct material *material = &scene->material[m];
+    const struct descriptor *elasticity = material->elasticity.descriptor;
+    if (elasticity) {
+      snprintf(who, sizeof who, "elasticity '%s'", elasticity->name);
+      needs_check(reading, elasticity, who, material);
+    }
+    for (size_t e = 0; e < scene->effects; e++) {
+      const struct effect *effect = &scene->effect[e];
+      bool touches = false;
+      for (size_t b = 0; b < scene->bodies; b++)
+        touches = touches || (effect->on_body[b] && scene->body[b].material == m);
+      if (!touches || effect->enabled == EFFECT_OFF || !effect->instance.descriptor)
+        continue;
+      snprintf(who, sizeof who, "effect '%s'", effect->instance.name);
+      needs_check(reading, effect->instance.descriptor, who, material);
+    }
+  }
+}

@@ -1,0 +1,103 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static void frames_read(struct reading *reading, const struct tree *node)
+{
+  struct scene *scene = reading->scene;
+  const struct tree *every = tree_get(node, "every"), *frames = tree_get(node, "frames");
+  double value = 0;
+  if (every && frames) {
+    blame_key(reading, frames, "one of them", "'every' and 'frames' are both given");
+  } else if (every) {
+    if (!number_read(reading, every, "every", axis_unit(reading), &value))
+      return;
+    if (value > 0)
+      scene->output_every = value;
+    else
+      blame_value(reading, every, "greater than 0", "'every' is not positive");
+  } else if (frames) {
+    if (!number_read(reading, frames, "frames", "1", &value))
+      return;
+    if (value >= 1 && value <= 1e6 && value == (double)(long)value)
+      scene->output_every = -value;
+    else
+      blame_value(reading, frames, "a whole number from 1 to 1000000",
+                  "'frames' cannot be '%.40s'", frames->text);
+  }
+}
+
+/* Measures of points, of the solver and the elasticities, may be fields of the output as well. */
+static bool is_point_measure(const struct descriptor *descriptor, const char *name)
+{
+  for (size_t i = 0; descriptor && i < descriptor->measures; i++)
+    if (descriptor->measure[i].at == MEASURE_POINT &&
+        (!name || strcmp(descriptor->measure[i].name, name) == 0))
+      return true;
+  return false;
+}
+
+static bool known_output(const struct reading *reading, const char *name)
+{
+  const struct scene *scene = reading->scene;
+  bool found = is_point_measure(scene->solver.descriptor, name);
+  for (size_t i = 0; i < scene->materials && !found; i++)
+    found = is_point_measure(scene->material[i].elasticity.descriptor, name);
+  for (size_t i = 0; i < scene->effects && !found; i++)
+    found = is_point_measure(scene->effect[i].instance.descriptor, name);
+  return found || field_unit(reading, name, false);
+}
+
+static size_t add_measures(const struct descriptor *descriptor, const char **name, size_t count,
+                           size_t capacity)
+{
+  for (size_t i = 0; descriptor && i < descriptor->measures && count < capacity; i++)
+    if (descriptor->measure[i].at == MEASURE_POINT)
+      name[count++] = descriptor->measure[i].name;
+  return count;
+}
+
+static void blame_field(struct reading *reading, const struct tree *node)
+{
+  enum { MEASURES = 256 };
+  const struct scene *scene = reading->scene;
+  char expected[WORDS_SIZE];
+  size_t fields, count = 0;
+  const char **field = field_names(reading, false, &fields);
+  const char **name = scene_take(fields + MEASURES, sizeof *name);
+  count = add_measures(scene->solver.descriptor, name, count, MEASURES);
+  for (size_t i = 0; i < scene->materials; i++)
+    count = add_measures(scene->material[i].elasticity.descriptor, name, count, MEASURES);
+  for (size_t i = 0; i < scene->effects; i++)
+    count = add_measures(scene->effect[i].instance.descriptor, name, count, MEASURES);
+  for (size_t i = 0; i < fields; i++)
+    name[count++] = field[i];
+  blame_value(reading, node, suggest(node->text, name, count, expected, sizeof expected),
+              "unknown field '%.60s'", node->text);
+  free(field);
+  free(name);
+}
+
+void outputs_read(struct reading *reading, const struct tree *root)
+{
+  static const char *const known[] = {"every", "frames", "fields"};
+  struct scene *scene = reading->scene;
+  const struct tree *node = tree_get(root, "outputs");
+  if (!node || !expect_mapping(reading, node, "'outputs'"))
+    return;
+  expect_keys(reading, node, known, COUNT_OF(known), "'outputs'");
+  frames_read(reading, node);
+  const struct tree *fields = tree_get(node, "fields");
+  if (!fields)
+    return;
+  scene->output_field = names_read(reading, fields, "fields", &scene->output_fields);
+  for (size_t i = 0; i < scene->output_fields; i++) {
+    const struct tree *item = fields;
+    for (size_t k = 0; k < fields->children; k++)
+      if (strcmp(fields->child[k]->text, scene->output_field[i]) == 0)
+        item = fields->child[k];
+    if (!known_output(reading, scene->output_field[i]))
+      blame_field(reading, item);
+  }
+}

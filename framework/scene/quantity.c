@@ -1,0 +1,271 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static const char *const own_keys[] = {"measure", "effect", "body", "at", "reduce", "every"};
+
+/* ---- which measure ------------------------------------------------------------------------------- */
+
+struct provider {
+  const struct descriptor *descriptor;
+  const char *effect;
+};
+
+/* Whoever may provide measures: the solver, the elasticities, the effects (all, or the one named). */
+static size_t providers_of(const struct scene *scene, const char *effect, struct provider *list)
+{
+  size_t count = 0;
+  if (!effect && scene->solver.descriptor)
+    list[count++] = (struct provider){scene->solver.descriptor, NULL};
+  for (size_t i = 0; i < scene->materials && !effect; i++) {
+    const struct descriptor *elasticity = scene->material[i].elasticity.descriptor;
+    bool known = !elasticity;
+    for (size_t k = 0; k < count && !known; k++)
+      known = list[k].descriptor == elasticity;
+    if (!known)
+      list[count++] = (struct provider){elasticity, NULL};
+  }
+  for (size_t i = 0; i < scene->effects; i++) {
+    const struct instance *one = &scene->effect[i].instance;
+    if (one->descriptor && (!effect || strcmp(effect, one->name) == 0))
+      list[count++] = (struct provider){one->descriptor, one->name};
+  }
+  return count;
+}
+
+static const struct measure *measure_named(const struct descriptor *descriptor, const char *name)
+{
+  for (size_t i = 0; i < descriptor->measures; i++)
+    if (strcmp(descriptor->measure[i].name, name) == 0)
+      return &descriptor->measure[i];
+  return NULL;
+}
+
+static void blame_measure(struct reading *reading, const struct tree *node,
+                          const struct provider *list, size_t count, bool fields)
+{
+  char expected[WORDS_SIZE];
+  size_t names = 0, known_fields = 0;
+  const char **field = fields ? field_names(reading, true, &known_fields) : NULL;
+  size_t all = known_fields;
+  for (size_t i = 0; i < count; i++)
+    all += list[i].descriptor->measures;
+  const char **name = scene_take(all, sizeof *name);
+  for (size_t i = 0; i < count; i++)
+    for (size_t k = 0; k < list[i].descriptor->measures; k++)
+      if (!has_name(name, names, list[i].descriptor->measure[k].name))
+        name[names++] = list[i].descriptor->measure[k].name;
+  for (size_t i = 0; i < known_fields; i++)
+    name[names++] = field[i];
+  blame_value(reading, node, suggest(node->text, name, names, expected, sizeof expected),
+              "unknown measure '%.60s'", node->text);
+  free(name);
+  free(field);
+}
+
+/* A field as a measure of its own: its formula is the field. */
+static bool plain_field(struct reading *reading, const char *name, struct quantity *quantity)
+{
+  const char *unit = field_unit(reading, name, true);
+  if (!unit)
+    return false;
+  struct measure *measure = scene_keep(reading, 1, sizeof *measure);
+  *measure = (struct measure){.name = name, .unit = unit, .formula = name, .at = MEASURE_POINT};
+  quantity->measure = measure;
+  quantity->field = name;
+  return true;
+}
+
+static bool effect_named(struct reading *reading, const struct tree *node, const char **effect)
+{
+  const struct scene *scene = reading->scene;
+  char expected[WORDS_SIZE];
+  *effect = NULL;
+  if (!node)
+    return true;
+  const char *text = text_read(reading, node, "effect");
+  const char **known = scene_take(scene->effects, sizeof *known);
+  for (size_t i = 0; i < scene->effects; i++)
+    known[i] = scene->effect[i].instance.name;
+  bool found = text && has_name(known, scene->effects, text);
+  if (text && !found)
+    blame_value(reading, node, suggest(text, known, scene->effects, expected, sizeof expected),
+                "unknown effect '%.60s'", text);
+  free(known);
+  *effect = text;
+  return found;
+}
+
+static bool measure_find(struct reading *reading, const struct tree *node, const char *effect,
+                         struct quantity *quantity)
+{
+  const struct scene *scene = reading->scene;
+  struct provider *list = scene_take(1 + scene->materials + scene->effects, sizeof *list);
+  size_t count = providers_of(scene, effect, list), found = 0, of_effects = 0;
+  for (size_t i = 0; i < count; i++) {
+    const struct measure *measure = measure_named(list[i].descriptor, node->text);
+    if (!measure)
+      continue;
+    of_effects += list[i].effect != NULL;
+    if (found++)
+      continue;
+    quantity->measure = measure;
+    quantity->provider = list[i].descriptor;
+    quantity->effect = list[i].effect;
+  }
+  if (quantity->effect && of_effects > 1) {
+    blame_value(reading, node, "'effect:' names the one that is meant",
+                "measure '%s' is offered by several effects", node->text);
+    quantity->measure = NULL;
+  } else if (!found && (effect || !plain_field(reading, node->text, quantity))) {
+    blame_measure(reading, node, list, count, !effect);
+  }
+  free(list);
+  return quantity->measure != NULL;
+}
+
+/* ---- where and when ------------------------------------------------------------------------------ */
+
+static bool body_find(struct reading *reading, const struct tree *node, int *body)
+{
+  char expected[WORDS_SIZE];
+  const char *name = text_read(reading, node, "body");
+  for (size_t i = 0; name && i < reading->bodies; i++)
+    if (strcmp(reading->body[i], name) == 0) {
+      *body = (int)i;
+      return true;
+    }
+  if (name)
+    blame_value(reading, node,
+                suggest(name, reading->body, reading->bodies, expected, sizeof expected),
+                "unknown body '%.60s'", name);
+  return false;
+}
+
+/* The body of a measure that has one: the only one of the scene unless it is named. */
+static void body_default(struct reading *reading, const struct tree *node,
+                         struct quantity *quantity)
+{
+  const struct tree *given = tree_get(node, "body");
+  char expected[WORDS_SIZE], list[WORDS_SIZE - 32];
+  if (given) {
+    body_find(reading, given, &quantity->body);
+  } else if (reading->bodies == 1) {
+    quantity->body = 0;
+  } else if (reading->bodies > 1) {
+    snprintf(expected, sizeof expected, "body: one of %s",
+             list_text(reading->body, reading->bodies, list, sizeof list));
+    blame_key(reading, node, expected, "'body' is missing in quantity '%s'", quantity->name);
+  }
+}
+
+static void point_read(struct reading *reading, const struct tree *at, struct quantity *quantity)
+{
+  const struct tree *point = tree_get(at, "point"), *follow = tree_get(at, "follow");
+  size_t count, axes = reading->axes ? reading->axes : 3;
+  double *number = point ? vector_read(reading, point, "point", "m", axes, axes, &count) : NULL;
+  if (number) {
+    memcpy(quantity->point, number, count * sizeof *number);
+    quantity->has_point = true;
+  } else if (!point && reading->axes) {
+    blame_key(reading, at, "at: {body:, point: [..], follow: material | space}",
+              "'point' is missing in 'at'");
+  }
+  free(number);
+  const char *text = follow ? text_read(reading, follow, "follow") : NULL;
+  if (text && strcmp(text, "space") != 0 && strcmp(text, "material") != 0)
+    blame_value(reading, follow, "material or space", "'follow' cannot be '%.40s'", text);
+  quantity->follow_space = text && strcmp(text, "space") == 0;
+  const struct scene *scene = reading->scene;
+  const struct shape *shape = quantity->body >= 0 ? &scene->body[quantity->body].shape : NULL;
+  if (quantity->has_point && !quantity->follow_space && shape && shape->kind != SHAPE_NONE &&
+      !shape_inside(shape, quantity->point, -1e-9 * (1 + shape->radius)))
+    warn_value(reading, point, "the nearest point of the body is taken",
+               "the point lies outside body '%s'", scene->body[quantity->body].name);
+}
+
+static void at_read(struct reading *reading, const struct tree *node, struct quantity *quantity)
+{
+  static const char *const known[] = {"body", "point", "follow"};
+  const struct tree *at = tree_get(node, "at");
+  if (quantity->measure->at != MEASURE_POINT) {
+    if (at)
+      blame_key(reading, at, quantity->measure->at == MEASURE_BODY ? "body: NAME" : NULL,
+                "measure '%s' is not one of a point", quantity->measure->name);
+    if (quantity->measure->at == MEASURE_BODY)
+      body_default(reading, node, quantity);
+    else if (tree_get(node, "body"))
+      body_find(reading, tree_get(node, "body"), &quantity->body);
+    return;
+  }
+  if (at) {
+    if (!expect_mapping(reading, at, "'at'"))
+      return;
+    expect_keys(reading, at, known, COUNT_OF(known), "'at'");
+    body_default(reading, tree_get(at, "body") ? at : node, quantity);
+    point_read(reading, at, quantity);
+  } else if (reading->axes) {
+    blame_key(reading, node, "at: {body:, point: [..], follow: material | space}",
+              "'at' is missing in quantity '%s': '%s' is a measure of points", quantity->name,
+              quantity->measure->name);
+  } else {
+    body_default(reading, node, quantity);
+  }
+}
+
+static void when_read(struct reading *reading, const struct tree *node, struct quantity *quantity)
+{
+  const struct tree *reduce = tree_get(node, "reduce"), *every = tree_get(node, "every");
+  if (reduce)
+    reduction_read(reading, reduce, quantity->measure->unit, &quantity->reduction);
+  if (every && number_read(reading, every, "every", axis_unit(reading), &quantity->every) &&
+      !(quantity->every > 0))
+    blame_value(reading, every, "greater than 0", "'every' is not positive");
+}
+
+static void quantity_read(struct reading *reading, const struct tree *node,
+                          struct quantity *quantity)
+{
+  char path[PATH_SIZE], what[160];
+  const char *effect;
+  snprintf(what, sizeof what, "quantity '%s'", node->key);
+  expect_name(reading, node, "a quantity");
+  if (!expect_mapping(reading, node, what))
+    return;
+  tree_path(node, path, sizeof path);
+  const struct tree *measure = tree_get(node, "measure");
+  if (!measure) {
+    expect_keys(reading, node, own_keys, COUNT_OF(own_keys), what);
+    char missing[PATH_SIZE + 16];
+    snprintf(missing, sizeof missing, "%s.measure", path);
+    blame_missing(reading, node, missing, "'gamut show' of the solver lists its measures",
+                  "'measure' is missing in %s", what);
+    return;
+  }
+  if (!text_read(reading, measure, "measure") ||
+      !effect_named(reading, tree_get(node, "effect"), &effect) ||
+      !measure_find(reading, measure, effect, quantity))
+    return;
+  struct section section = {.parameter = quantity->measure->argument,
+                            .count = quantity->measure->arguments, .node = node, .path = path,
+                            .what = what, .also = own_keys, .others = COUNT_OF(own_keys)};
+  quantity->arguments = section_read(reading, &section);
+  at_read(reading, node, quantity);
+  when_read(reading, node, quantity);
+}
+
+void quantities_read(struct reading *reading, const struct tree *root)
+{
+  struct scene *scene = reading->scene;
+  const struct tree *node = tree_get(root, "quantities");
+  if (!node || !expect_mapping(reading, node, "'quantities'"))
+    return;
+  scene->quantity = scene_take(node->children, sizeof *scene->quantity);
+  scene->quantities = node->children;
+  for (size_t i = 0; i < node->children; i++) {
+    scene->quantity[i] =
+        (struct quantity){.name = node->child[i]->key, .body = -1, .node = node->child[i]};
+    quantity_read(reading, node->child[i], &scene->quantity[i]);
+  }
+}

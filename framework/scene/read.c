@@ -1,0 +1,126 @@
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static const char *const top_keys[] = {"gamut",  "title",   "include",    "solver",  "materials",
+                                       "bodies", "effects", "quantities", "outputs", "uncertainty"};
+
+/* Where a key at the top that is none may belong. */
+static void top_check(struct reading *reading, const struct tree *root)
+{
+  static const char *const material[] = {"density", "eos", "strength", "elasticity"};
+  static const char *const body[] = {"material", "shape", "velocity", "temperature"};
+  const struct descriptor *solver =
+      instance_peek(reading, GAMUT_KIND_SOLVER, tree_get(root, "solver"));
+  if (solver)
+    neighbour_add(reading, "under 'solver:'", solver->parameter, solver->parameters, NULL, 0);
+  neighbour_add(reading, "under a material", NULL, 0, material, COUNT_OF(material));
+  neighbour_add(reading, "under a body", NULL, 0, body, COUNT_OF(body));
+  expect_keys(reading, root, top_keys, COUNT_OF(top_keys), "the scene");
+  reading->neighbours = 0;
+}
+
+/* Names of the bodies, so that whatever is read before them can refer to them. */
+static void body_names(struct reading *reading, const struct tree *root)
+{
+  const struct tree *bodies = tree_get(root, "bodies");
+  if (!bodies || bodies->kind != TREE_MAPPING)
+    return;
+  const char **name = scene_keep(reading, bodies->children, sizeof *name);
+  for (size_t i = 0; i < bodies->children; i++)
+    name[i] = bodies->child[i]->key;
+  reading->body = name;
+  reading->bodies = bodies->children;
+}
+
+static void uncertainty_check(struct reading *reading, const struct tree *root)
+{
+  static const char *const known[] = {"estimator", "correlation", "seed"};
+  const struct tree *node = tree_get(root, "uncertainty");
+  if (node && expect_mapping(reading, node, "'uncertainty'"))
+    expect_keys(reading, node, known, COUNT_OF(known), "'uncertainty'");
+}
+
+static void sections_read(struct reading *reading, struct scene *scene)
+{
+  const struct tree *root = scene->tree, *title = tree_get(root, "title");
+  top_check(reading, root);
+  scene->title = title ? text_read(reading, title, "title") : NULL;
+  body_names(reading, root);
+  solver_read(reading, root);
+  materials_read(reading, root);
+  bodies_read(reading, root);
+  effects_read(reading, root);
+  material_needs(reading);
+  quantities_read(reading, root);
+  outputs_read(reading, root);
+  uncertainty_check(reading, root);
+  bodies_check(reading);
+  scene->random = reading->random;
+}
+
+gamut_status scene_read(const char *file, const struct scene_override *override, size_t overrides,
+                        struct registry *registry, const struct units *units, struct trace *trace,
+                        struct scene **scene)
+{
+  struct scene_store *store = scene_take(1, sizeof *store);
+  struct reading reading = {
+      .units = units, .trace = trace, .registry = registry, .scene = &store->shown};
+  *scene = NULL;
+  char *name = scene_keep(&reading, strlen(file) + 1, 1);
+  store->shown.file = strcpy(name, file);
+  store->shown.tree = include_read(&reading, file, override, overrides);
+  if (store->shown.tree)
+    sections_read(&reading, &store->shown);
+  if (reading.faults == 0)
+    *scene = &store->shown;
+  else
+    scene_free(&store->shown);
+  return reading.first;
+}
+
+static void clear_material(struct material *material)
+{
+  free(material->density_random);
+  values_free(material->eos.values);
+  values_free(material->strength.values);
+  values_free(material->elasticity.values);
+  values_free(material->extra);
+}
+
+static void clear_body(struct gamut_body *body)
+{
+  for (int k = 0; k < 3; k++)
+    expression_free(body->velocity_expression[k]);
+  values_free(body->solver_values);
+}
+
+void scene_free(struct scene *scene)
+{
+  if (!scene)
+    return;
+  values_free(scene->solver.values);
+  for (size_t i = 0; i < scene->materials; i++)
+    clear_material(&scene->material[i]);
+  for (size_t i = 0; i < scene->bodies; i++)
+    clear_body(&scene->body[i]);
+  for (size_t i = 0; i < scene->effects; i++) {
+    values_free(scene->effect[i].instance.values);
+    free(scene->effect[i].on_body);
+  }
+  for (size_t i = 0; i < scene->quantities; i++)
+    values_free(scene->quantity[i].arguments);
+  free(scene->material);
+  free(scene->body);
+  free(scene->effect);
+  free(scene->quantity);
+  tree_free(scene->tree);
+  struct scene_store *store = (struct scene_store *)(void *)scene;
+  while (store->piece) {
+    struct scene_piece *piece = store->piece;
+    store->piece = piece->next;
+    free(piece);
+  }
+  free(store);
+}

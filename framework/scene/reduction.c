@@ -1,0 +1,82 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/reading.h"
+
+static const char forms[] = "at end, at 12 us, max, min, mean, {mean: [t0, t1]}, {max: [t0, t1]}, "
+                            "{min: [t0, t1]}, {slope: [t0, t1]}, {time_of: VALUE} or "
+                            "{time_of_max: [t0, t1]}";
+
+struct form {
+  const char *name;
+  enum reduction_kind kind;
+  bool time_of_max, alone; /* may stand without a window */
+};
+static const struct form form_list[] = {
+    {"max", REDUCE_MAX, false, true},       {"min", REDUCE_MIN, false, true},
+    {"mean", REDUCE_MEAN, false, true},     {"time_of_max", REDUCE_TIME_OF, true, true},
+    {"slope", REDUCE_SLOPE, false, true},   {"time_of", REDUCE_TIME_OF, false, false},
+};
+
+static const struct form *form_named(const char *name)
+{
+  for (size_t i = 0; i < COUNT_OF(form_list); i++)
+    if (strcmp(form_list[i].name, name) == 0)
+      return &form_list[i];
+  return NULL;
+}
+
+static bool scalar_read(struct reading *reading, const struct tree *node,
+                        struct reduction *reduction)
+{
+  const char *text = node->text;
+  const struct form *form = form_named(text);
+  if (form && form->alone) {
+    reduction->kind = form->kind;
+    reduction->time_of_max = form->time_of_max;
+    return true;
+  }
+  if (strcmp(text, "at end") == 0) {
+    reduction->kind = REDUCE_AT;
+    reduction->at_end = true;
+    return true;
+  }
+  if (strncmp(text, "at ", 3) == 0 &&
+      unit_read(reading->units, text + 3, axis_unit(reading), &reduction->from) == UNIT_OK) {
+    reduction->kind = REDUCE_AT;
+    reduction->to = reduction->from;
+    return true;
+  }
+  blame_value(reading, node, forms, "unknown reduction '%.60s'", text);
+  return false;
+}
+
+bool reduction_read(struct reading *reading, const struct tree *node, const char *unit,
+                    struct reduction *reduction)
+{
+  *reduction = (struct reduction){.kind = REDUCE_NONE, .from = 0, .to = INFINITY};
+  if (node->kind == TREE_SCALAR)
+    return scalar_read(reading, node, reduction);
+  const struct tree *child = node->children == 1 ? node->child[0] : NULL;
+  const struct form *form = child && child->key ? form_named(child->key) : NULL;
+  if (!form) {
+    blame_value(reading, node, forms, "'reduce' is none of the known forms");
+    return false;
+  }
+  reduction->kind = form->kind;
+  reduction->time_of_max = form->time_of_max;
+  if (form->kind == REDUCE_TIME_OF && !form->time_of_max)
+    return number_read(reading, child, form->name, unit, &reduction->level);
+  size_t count;
+  double *window = vector_read(reading, child, form->name, axis_unit(reading), 2, 2, &count);
+  bool fine = window && window[0] < window[1];
+  if (fine) {
+    reduction->from = window[0];
+    reduction->to = window[1];
+  } else if (window) {
+    blame_value(reading, child, "[t0, t1] with t0 < t1", "the window of '%s' is empty", form->name);
+  }
+  free(window);
+  return fine;
+}

@@ -1,0 +1,279 @@
+/* JSON Schema of scenes (draft 2020-12). It helps an editor to complete and to explain; what it cannot
+ * say (dimensions, constraints, names that must exist) `gamut check` says. */
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "scene/reading.h"
+
+static json_t *described(json_t *schema, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+
+static json_t *described(json_t *schema, const char *format, ...)
+{
+  char text[WORDS_SIZE];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(text, sizeof text, format, list);
+  va_end(list);
+  if (text[0])
+    json_object_set_new(schema, "description", json_string_nocheck(text));
+  return schema;
+}
+
+static json_t *reference(const char *name)
+{
+  return json_pack("{s:o}", "$ref", json_sprintf("#/$defs/%s", name));
+}
+
+static json_t *words(const char *const *name, size_t count)
+{
+  json_t *list = json_array();
+  for (size_t i = 0; i < count; i++)
+    json_array_append_new(list, json_string(name[i]));
+  return list;
+}
+
+static json_t *list_of(json_t *item, size_t least, size_t most)
+{
+  json_t *schema = json_pack("{s:s, s:o, s:I}", "type", "array", "items", item, "minItems",
+                             (json_int_t)least);
+  if (most)
+    json_object_set_new(schema, "maxItems", json_integer((json_int_t)most));
+  return schema;
+}
+
+static json_t *object(json_t *properties, bool closed)
+{
+  return json_pack("{s:s, s:o, s:b}", "type", "object", "properties", properties,
+                   "additionalProperties", !closed);
+}
+
+/* Any keys, each with the same content: materials, bodies. */
+static json_t *named(json_t *item)
+{
+  return json_pack("{s:s, s:o}", "type", "object", "additionalProperties", item);
+}
+
+static json_t *number(const struct parameter *parameter)
+{
+  bool pure = unit_is_pure(parameter->unit);
+  if (!parameter->random || parameter->type != VALUE_REAL)
+    return reference(pure ? "number" : "quantity");
+  return json_pack("{s:[o, o]}", "anyOf", reference(pure ? "number" : "quantity"),
+                   reference("random"));
+}
+
+static json_t *parameters_schema(const struct parameter *, size_t count, json_t *into);
+
+static json_t *bare_schema(const struct parameter *parameter)
+{
+  switch (parameter->type) {
+  case VALUE_REAL:
+    return number(parameter);
+  case VALUE_INTEGER:
+    return json_pack("{s:s}", "type", "integer");
+  case VALUE_BOOLEAN:
+    return json_pack("{s:s}", "type", "boolean");
+  case VALUE_CHOICE:
+    return json_pack("{s:o}", "enum", words(parameter->choice, parameter->choices));
+  case VALUE_TEXT:
+  case VALUE_BODY:
+    return json_pack("{s:s}", "type", "string");
+  case VALUE_EXPRESSION:
+    return json_pack("{s:[s, s]}", "type", "string", "number");
+  case VALUE_VECTOR:
+    return list_of(reference(unit_is_pure(parameter->unit) ? "number" : "quantity"),
+                   parameter->size_min, parameter->size_max);
+  case VALUE_TABLE:
+    return json_pack("{s:[o, o]}", "anyOf", json_pack("{s:s}", "type", "array"),
+                     object(json_pack("{s:{s:s}}", "file", "type", "string"), true));
+  case VALUE_GROUP:
+    return object(parameters_schema(parameter->member, parameter->members, NULL), true);
+  }
+  return json_object();
+}
+
+static json_t *parameter_schema(const struct parameter *parameter)
+{
+  char range[128], physical[160] = "";
+  bool pure = unit_is_pure(parameter->unit);
+  json_t *schema = bare_schema(parameter);
+  if (parameter->physical.stated) {
+    range_text(&parameter->physical, parameter->unit, range, sizeof range);
+    snprintf(physical, sizeof physical, "; %s", range);
+  }
+  if (parameter->standard && parameter->standard->kind == TREE_SCALAR)
+    json_object_set_new(schema, "default", json_string(parameter->standard->text));
+  return described(schema, "%s%s%s%s%s", parameter->doc ? parameter->doc : "", pure ? "" : " [",
+                   pure ? "" : parameter->unit, pure ? "" : "]", physical);
+}
+
+/* Properties of parameters, added to `into` or to a new object. */
+static json_t *parameters_schema(const struct parameter *parameter, size_t count, json_t *into)
+{
+  json_t *properties = into ? into : json_object();
+  for (size_t i = 0; i < count; i++)
+    if (!json_object_get(properties, parameter[i].name))
+      json_object_set_new(properties, parameter[i].name, parameter_schema(&parameter[i]));
+  return properties;
+}
+
+/* A plugin of one kind: `model` decides which parameters may follow. A plain name will do too. */
+static json_t *plugin_schema(const struct registry *registry, enum gamut_kind kind,
+                             json_t *(*common)(void))
+{
+  json_t *models = json_array(), *branches = json_array();
+  for (size_t i = 0; i < registry_count(registry); i++) {
+    const struct descriptor *d = registry_at(registry, i);
+    if (d->kind != kind)
+      continue;
+    json_array_append_new(models, json_string(d->name));
+    json_t *properties =
+        parameters_schema(d->parameter, d->parameters, common ? common() : json_object());
+    json_object_set_new(properties, "model", json_pack("{s:s}", "const", d->name));
+    json_t *then = described(object(properties, true), "%s", d->summary ? d->summary : "");
+    json_array_append_new(branches, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:o}", "if", "properties",
+                                              "model", "const", d->name, "required", "model",
+                                              "then", then));
+  }
+  json_t *mapping = json_pack("{s:s, s:{s:{s:O}}}", "type", "object", "properties", "model", "enum",
+                              models);
+  if (json_array_size(branches))
+    json_object_set(mapping, "allOf", branches);
+  json_decref(branches);
+  return json_pack("{s:[{s:o}, o]}", "anyOf", "enum", models, mapping);
+}
+
+static json_t *effect_keys(void)
+{
+  return json_pack("{s:{s:[s, s, s, b, b]}, s:o, s:o}", "enabled", "enum", "auto", "on", "off", 1, 0,
+                   "bodies", reference("names"), "materials", reference("names"));
+}
+
+static json_t *shape_schema(void)
+{
+  json_t *place = reference("place"), *length = reference("quantity");
+  json_t *box = object(json_pack("{s:O, s:O, s:O, s:O}", "min", place, "max", place, "size", place,
+                                 "centre", place),
+                       true);
+  json_t *cylinder = object(json_pack("{s:O, s:O, s:{s:[s, s, s]}, s:O}", "radius", length,
+                                      "length", length, "axis", "enum", "x", "y", "z", "base",
+                                      place),
+                            true);
+  json_t *sphere = object(json_pack("{s:O, s:O}", "radius", length, "centre", place), true);
+  json_decref(place);
+  json_decref(length);
+  json_t *shape =
+      object(json_pack("{s:o, s:o, s:o}", "box", box, "cylinder", cylinder, "sphere", sphere),
+             true);
+  json_object_set_new(shape, "minProperties", json_integer(1));
+  json_object_set_new(shape, "maxProperties", json_integer(1));
+  return described(shape, "one of box, cylinder, sphere");
+}
+
+static json_t *material_schema(const struct registry *registry)
+{
+  json_t *properties = json_pack("{s:o}", "source", reference("names"));
+  json_object_set_new(properties, "density",
+                      described(json_pack("{s:[o, o]}", "anyOf", reference("quantity"),
+                                          reference("random")),
+                                "density at zero compression [kg/m3]; greater than 0 kg/m3"));
+  json_object_set_new(properties, "eos", plugin_schema(registry, GAMUT_KIND_EOS, NULL));
+  json_object_set_new(properties, "strength", plugin_schema(registry, GAMUT_KIND_STRENGTH, NULL));
+  json_object_set_new(properties, "elasticity",
+                      described(plugin_schema(registry, GAMUT_KIND_ELASTICITY, NULL),
+                                "hypoelastic where it is not stated"));
+  for (size_t i = 0; i < registry_count(registry); i++) {
+    const struct descriptor *d = registry_at(registry, i);
+    parameters_schema(d->material_parameter, d->material_parameters, properties);
+  }
+  return object(properties, true);
+}
+
+static json_t *body_schema(const struct registry *registry)
+{
+  json_t *component = json_pack("{s:[s, s]}", "type", "string", "number");
+  json_t *properties = json_pack(
+      "{s:{s:s}, s:o, s:o, s:o, s:o, s:o}", "material", "type", "string", "shape", shape_schema(),
+      "velocity",
+      described(list_of(component, 1, 3),
+                "numbers with units, or arithmetic in x, y, z (metres) that gives m/s"),
+      "temperature", described(reference("quantity"), "298 K where it is not stated [K]"),
+      "pressure", described(reference("quantity"), "initial pressure [Pa]"), "energy",
+      described(reference("quantity"), "initial energy per reference volume [J/m3]"));
+  for (size_t i = 0; i < registry_count(registry); i++) {
+    const struct descriptor *d = registry_at(registry, i);
+    parameters_schema(d->body_parameter, d->body_parameters, properties);
+  }
+  return object(properties, true);
+}
+
+static json_t *quantity_schema(const struct registry *registry)
+{
+  json_t *at = object(json_pack("{s:{s:s}, s:o, s:{s:[s, s]}}", "body", "type", "string", "point",
+                                reference("place"), "follow", "enum", "material", "space"),
+                      true);
+  json_t *properties = json_pack(
+      "{s:{s:s}, s:{s:s}, s:{s:s}, s:o, s:o, s:o}", "measure", "type", "string", "effect", "type",
+      "string", "body", "type", "string", "at", at, "reduce",
+      described(json_pack("{s:[s, s]}", "type", "string", "object"),
+                "at end, at 12 us, max, min, mean, {mean: [t0, t1]}, {time_of: VALUE}, ...; "
+                "absent: a history"),
+      "every", reference("quantity"));
+  for (size_t i = 0; i < registry_count(registry); i++) {
+    const struct descriptor *d = registry_at(registry, i);
+    for (size_t k = 0; k < d->measures; k++)
+      parameters_schema(d->measure[k].argument, d->measure[k].arguments, properties);
+  }
+  return object(properties, true);
+}
+
+static json_t *definitions(void)
+{
+  static const char *const kinds[] = DISTRIBUTION_NAMES;
+  json_t *pure = json_pack("{s:[s, s]}", "type", "number", "string");
+  json_t *value = json_pack("{s:[s, s]}", "type", "number", "string");
+  json_t *random = object(
+      json_pack("{s:O, s:O, s:O, s:{s:o}, s:O, s:O, s:{s:[s, s]}}", "mean", value, "cv", value,
+                "sd", value, "distribution", "enum", words(kinds, COUNT_OF(kinds)), "lower", value,
+                "upper", value, "truncate", "type", "boolean", "array"),
+      true);
+  json_decref(value);
+  return json_pack(
+      "{s:o, s:o, s:o, s:o, s:o}", "number", pure, "quantity",
+      json_pack("{s:s, s:s, s:[s]}", "type", "string", "pattern", "^[-+]?[0-9.]+([eE][-+]?[0-9]+)? ",
+                "examples", "0.4 mm"),
+      "random", random, "place", list_of(reference("quantity"), 1, 3), "names",
+      json_pack("{s:[{s:s}, o]}", "anyOf", "type", "string",
+                list_of(json_pack("{s:s}", "type", "string"), 0, 0)));
+}
+
+void schema_write(const struct registry *registry, FILE *file)
+{
+  json_t *outputs = object(json_pack("{s:o, s:{s:s}, s:o}", "every", reference("quantity"),
+                                     "frames", "type", "integer", "fields", reference("names")),
+                           true);
+  json_t *uncertainty =
+      object(json_pack("{s:o, s:{s:s}, s:{s:s}}", "estimator",
+                       plugin_schema(registry, GAMUT_KIND_ESTIMATOR, NULL), "correlation", "type",
+                       "array", "seed", "type", "integer"),
+             true);
+  json_t *properties = json_pack(
+      "{s:{s:i}, s:{s:s}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "gamut", "const", 1, "title",
+      "type", "string", "include", reference("names"), "solver",
+      plugin_schema(registry, GAMUT_KIND_SOLVER, NULL), "materials",
+      named(material_schema(registry)), "bodies", named(body_schema(registry)), "effects",
+      named(plugin_schema(registry, GAMUT_KIND_EFFECT, effect_keys)), "quantities",
+      named(quantity_schema(registry)), "outputs", outputs, "uncertainty", uncertainty);
+  json_t *schema = json_pack("{s:s, s:s, s:s, s:o, s:b, s:[s], s:o}", "$schema",
+                             "https://json-schema.org/draft/2020-12/schema", "title",
+                             "gamut scene", "type", "object", "properties", properties,
+                             "additionalProperties", 0, "required", "gamut", "$defs",
+                             definitions());
+  json_dumpf(schema, file, JSON_INDENT(2));
+  fputc('\n', file);
+  json_decref(schema);
+}
