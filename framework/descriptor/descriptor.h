@@ -13,29 +13,29 @@
  *     types: real (default), integer, boolean, choice (choices: [..]), text, vector (size: 2 or
  *     "1..3"), body (name of a body), expression (variables: [x, y, z]), table (columns: {time: s,
  *     strain: 1}; a sequence of rows or {file: NAME.csv}), group (members: like parameters).
- *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI unless
- *     they carry a unit: "[a, b)", "(0, inf)".
+ *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI
+ *     unless they carry a unit: "[a, b)", "(0, inf)".
  *   constraints: ["T_melt > T_room"]   comparisons over real parameters
- *   given:                             alternative sets; a scene gives one. The parameters that a set
+ *   given:                             alternative sets; a scene gives one. What is given leads to
  *     - {set: [youngs_modulus, poissons_ratio], then: {shear_modulus: "youngs_modulus / (2 * ..)"}}
- *     - {set: [shear_modulus]}         names in `set` and `then` are declared parameters. Parameters
+ *     - {set: [shear_modulus]}         what is in `then`; all names are declared parameters. Those
  *                                      of other sets must not be given. Derived ones need no value.
- *   inputs: [velocity_gradient, viscous_pressure?]   fields read; `?`: zero where nobody provides it
- *   outputs: [pressure, sound_speed]   fields written. A field that is not in the vocabulary (another
+ *   inputs: [velocity_gradient, viscous_pressure?]   fields read; `?`: zero where nobody has it
+ *   outputs: [pressure, sound_speed]   fields written. A field outside the vocabulary (another
  *                                      plugin's state) is an item "burn: {unit: 1, components: 1}"
- *   state:                             history: fields of their own, a begin and an end value. Unit and
- *     plastic_strain: {unit: 1, components: 1, initial: 0, doc: ...}   components of a field of the
- *                                      vocabulary need not be stated, and must agree if they are
+ *   state:                             history: fields of their own, a begin and an end value. Unit
+ *     plastic_strain: {unit: 1, components: 1, initial: 0, doc: ...}   and components of a field of
+ *                                      the vocabulary need not be stated, and agree if they are
  *   scratch: 24                        scratch arrays for the kernel
  *   laws: [eos, strength?]             elasticity: callees; `?`: may be absent (null pointer)
  *   inverse: true                      strength: offers the inverse
  *   derivatives: {of: pressure, by: [C0, S1, reference_density]}
  *   variants: [{when: "C == 0", kernel: name, drops: [plastic_strain_rate]}]   `when` over real,
- *                                      integer and boolean parameters; `drops`: inputs not needed then
+ *                                      integer and boolean parameters; `drops`: inputs not needed
  *   messages: {beyond_pole: {severity: stop, text: "..."}}
  *   tasks: [{kernel: heat, phase: after material, reads: [..], writes: [..], adds: [..]}]   effects
- *   body_parameters:, material_parameters:   like parameters: keys that this plugin adds to every body
- *                                      (solver) or material (effects, elasticity)
+ *   body_parameters:, material_parameters:   like parameters: keys that this plugin adds to every
+ *                                      body (solver) or material (effects, elasticity)
  *   requires: [plane]                  names in somebody's `provides`
  *   provides: [plane, points]
  *   phases: [..]                       solver
@@ -43,8 +43,9 @@
  *   measures:                          what a quantity can be
  *     pressure: {unit: Pa, at: point, formula: "-(stress_xx + stress_yy + stress_zz) / 3", doc: ..}
  *     extent: {unit: m, at: body, arguments: {axis: {type: choice, choices: [x, y, z]}}, doc: ..}
- *     `at: point` measures are per point (fields of outputs, or a quantity with `at:`); `at: body` and
- *     `at: run` are scalars from the plugin's measure operation.
+ *     `at: point` measures are per point (a formula over components of fields such as stress_xx, or
+ *     the name of a field); `at: body` and `at: run` are scalars from the plugin's measure
+ *     operation.
  */
 #ifndef GAMUT_DESCRIPTOR_H
 #define GAMUT_DESCRIPTOR_H
@@ -152,7 +153,7 @@ const struct parameter *parameter_named(const struct parameter *, size_t count, 
 /* Index of a parameter of the descriptor, or -1. */
 int descriptor_parameter(const struct descriptor *, const char *name);
 
-/* ---- the block that a kernel of this plugin sees ---------------------------------------------- */
+/* ---- the block that a kernel of this plugin sees --------------------------------------------- */
 
 /* What a pointer of the generated struct leads to, in declared order after count and status. */
 enum slot_kind {
@@ -173,17 +174,17 @@ struct slot {
   unsigned component, components; /* this pointer is component `component` of `components` */
   const char *name, *unit;
 };
-/* Layout of the struct as pointers; *slots is allocated, freed by the caller. Kernels see parameters of
- * type real, integer, boolean (0 or 1) and choice (its number). */
+/* Layout of the struct as pointers; *slots is allocated, freed by the caller. Kernels see
+ * parameters of type real, integer, boolean (0 or 1) and choice (its number). */
 size_t descriptor_layout(const struct descriptor *, struct slot **slots);
 
-/* Digest of kind, id, the ordered names, units and components of the layout, and the ordered names of
- * choices, messages and kernels (FNV-1a, 64 bits): 16 hex digits. Not of the prose, nor of defaults.
- * Computed by descriptor_read. */
+/* Digest of kind, id, the ordered names, units and components of the layout, and the ordered names
+ * of choices, messages and kernels (FNV-1a, 64 bits): 16 hex digits. Not of the prose, nor of
+ * defaults. Computed by descriptor_read. */
 
-/* Writes NAME.gamut.h: the struct with a comment a member, constants of choices and messages, number of
- * scratch arrays, digest, struct NAME_ops (kind operations, then the kernels of variants, then those of
- * tasks, in declared order). */
+/* Writes NAME.gamut.h: the struct with a comment a member, constants of choices and messages,
+ * number of scratch arrays, digest, struct NAME_ops (kind operations, then the kernels of variants,
+ * then those of tasks, in declared order). */
 void descriptor_header(const struct descriptor *, FILE *);
 /* For people: `gamut show`. */
 void descriptor_show(const struct descriptor *, FILE *);

@@ -57,26 +57,30 @@ static const char *slot_meaning(const struct descriptor *d, const struct slot *s
   return NULL;
 }
 
-static void put_type(FILE *file, const struct slot *slot)
+/* "  const double *stress_begin[6];" */
+static int declare(const struct slot *slot, char *text, size_t size)
 {
-  if (slot->kind == SLOT_LAW)
-    fprintf(file, "  const struct gamut_%s_law *", slot->name);
-  else if (slot->kind == SLOT_PARAMETER || slot->kind == SLOT_MATERIAL_PARAMETER ||
-           slot->kind == SLOT_INPUT || slot->kind == SLOT_STATE_BEGIN ||
-           slot->kind == SLOT_INVERSE_INPUT)
-    fputs("  const double *", file);
-  else
-    fputs("  double *", file);
+  const char *type = slot->kind == SLOT_PARAMETER || slot->kind == SLOT_MATERIAL_PARAMETER ||
+                             slot->kind == SLOT_INPUT || slot->kind == SLOT_STATE_BEGIN ||
+                             slot->kind == SLOT_INVERSE_INPUT
+                         ? "const double"
+                         : "double";
+  char law[64], extent[16] = "";
+  if (slot->kind == SLOT_LAW) {
+    snprintf(law, sizeof law, "const struct gamut_%s_law", slot->name);
+    type = law;
+  }
+  if (slot->components > 1 || slot->kind == SLOT_SCRATCH)
+    snprintf(extent, sizeof extent, "[%u]", slot->components);
+  return snprintf(text, size, "  %s *%s%s;", type, slot->name, extent);
 }
 
-static void put_member(FILE *file, const struct descriptor *d, const struct slot *slot)
+static void put_member(FILE *file, const struct descriptor *d, const struct slot *slot, int width)
 {
-  put_type(file, slot);
-  fputs(slot->name, file);
-  if (slot->components > 1 || slot->kind == SLOT_SCRATCH)
-    fprintf(file, "[%u]", slot->components);
+  char text[256];
+  declare(slot, text, sizeof text);
+  fprintf(file, "%-*s /* ", width, text);
   const char *meaning = slot_meaning(d, slot);
-  fputs("; /* ", file);
   bool unit = slot->kind != SLOT_LAW && slot->kind != SLOT_SCRATCH;
   if (unit)
     put_comment(file, slot->unit);
@@ -127,11 +131,18 @@ static void put_block(FILE *file, const struct descriptor *d)
   fputs("\n/* ", file);
   put_comment(file, d->summary);
   fprintf(file, " */\nstruct %s {\n", d->name);
-  fputs("  size_t count;    /* points in this block */\n"
-        "  int64_t *status; /* one word a point, see GAMUT_FLAG */\n", file);
+  /* Comments stand in one column, but for members with very long names. */
+  int width = 18;
+  for (size_t i = 0; i < count; i++) {
+    char text[256];
+    int length = declare(&slots[i], text, sizeof text);
+    width = length > width && length <= 44 ? length : width;
+  }
+  fprintf(file, "%-*s /* points in this block */\n", width, "  size_t count;");
+  fprintf(file, "%-*s /* one word a point, see GAMUT_FLAG */\n", width, "  int64_t *status;");
   for (size_t i = 0; i < count; i++)
     if (slots[i].component == 0)
-      put_member(file, d, &slots[i]);
+      put_member(file, d, &slots[i], width);
   fputs("};\n", file);
   free(slots);
 }

@@ -42,10 +42,11 @@ const char *kind_operation(enum gamut_kind kind, size_t index)
 const char *value_type_name(enum value_type type)
 {
   static const char *const name[] = {
-      [VALUE_REAL] = "real",   [VALUE_INTEGER] = "integer",       [VALUE_BOOLEAN] = "boolean",
-      [VALUE_CHOICE] = "choice", [VALUE_TEXT] = "text",           [VALUE_VECTOR] = "vector",
-      [VALUE_BODY] = "body",   [VALUE_EXPRESSION] = "expression", [VALUE_TABLE] = "table",
-      [VALUE_GROUP] = "group",
+      [VALUE_REAL] = "real",       [VALUE_INTEGER] = "integer",
+      [VALUE_BOOLEAN] = "boolean", [VALUE_CHOICE] = "choice",
+      [VALUE_TEXT] = "text",       [VALUE_VECTOR] = "vector",
+      [VALUE_BODY] = "body",       [VALUE_EXPRESSION] = "expression",
+      [VALUE_TABLE] = "table",     [VALUE_GROUP] = "group",
   };
   return (size_t)type < LENGTH(name) ? name[type] : NULL;
 }

@@ -6,8 +6,8 @@
 #include "descriptor/reader.h"
 #include "field/vocabulary.h"
 
-/* First pass: slots is null, slots and characters are counted. Second pass: both are written into one
- * allocation, so that the caller frees one pointer. */
+/* First pass: slots is null, slots and characters are counted. Second pass: both are written into
+ * one allocation, so that the caller frees one pointer. */
 struct layout {
   struct slot *slots;
   char *text;
@@ -145,8 +145,6 @@ size_t descriptor_layout(const struct descriptor *descriptor, struct slot **slot
   return layout.count;
 }
 
-/* ---- digest ----------------------------------------------------------------------------------- */
-
 static uint64_t digest_text(uint64_t digest, const char *text)
 {
   const unsigned char *c = (const unsigned char *)text;
@@ -193,8 +191,6 @@ void descriptor_seal(struct descriptor *d)
     digest = digest_text(digest, d->task[i].kernel);
   snprintf(d->digest, sizeof d->digest, "%016" PRIx64, digest);
 }
-
-/* ---- checks ----------------------------------------------------------------------------------- */
 
 static const char *section_of(enum slot_kind kind)
 {

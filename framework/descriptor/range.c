@@ -87,7 +87,8 @@ bool range_within(const struct range *inner, const struct range *outer)
 
 char *range_text(const struct range *range, const char *unit, char *buffer, size_t size)
 {
-  bool low = range->stated && isfinite(range->lower), high = range->stated && isfinite(range->upper);
+  bool low = range->stated && isfinite(range->lower),
+       high = range->stated && isfinite(range->upper);
   char lower[64] = "", upper[64] = "";
   if (low)
     snprintf(lower, sizeof lower, "%s %.10g", range->lower_open ? "greater than" : "at least",

@@ -84,7 +84,8 @@ static bool read_identity(struct reader *reader, const struct tree *root)
   return check_name(reader, node, false, d->name);
 }
 
-/* The file is called NAME.yaml. Below a folder that is called like a kind, the folders agree too. */
+/* The file is called NAME.yaml. Below a folder that is called like a kind, the folders agree too.
+ */
 static void check_place(struct reader *reader, const struct tree *root, const char *file)
 {
   struct descriptor *d = reader->descriptor;

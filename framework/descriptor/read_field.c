@@ -39,9 +39,10 @@ static bool read_field(struct reader *reader, const struct tree *item, struct fi
       known[count] = v->name;
     char expected[256];
     const char *near = nearest(use->name, known, count);
-    snprintf(expected, sizeof expected, "%s%s%sanother plugin's state is written \"%s: {unit: .., "
-             "components: ..}\"", near ? "did you mean '" : "", near ? near : "",
-             near ? "'? " : "", use->name);
+    snprintf(expected, sizeof expected,
+             "%s%s%sanother plugin's state is written \"%s: {unit: .., "
+             "components: ..}\"",
+             near ? "did you mean '" : "", near ? near : "", near ? "'? " : "", use->name);
     fault(reader, item, expected, "unknown field '%s'", use->name);
     return false;
   }
@@ -66,8 +67,7 @@ static size_t read_uses(struct reader *reader, const struct tree *node, struct f
   return count;
 }
 
-static void read_state(struct reader *reader, const struct tree *node,
-                       struct state_variable *state)
+static void read_state(struct reader *reader, const struct tree *node, struct state_variable *state)
 {
   static const char *const keys[] = {"unit", "components", "initial", "doc"};
   state->name = node->key;

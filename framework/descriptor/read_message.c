@@ -37,7 +37,8 @@ static void read_message_list(struct reader *reader, const struct tree *node)
     message->name = child->key;
     check_name(reader, child, true, child->key);
     if (strcmp(child->key, "scratch") == 0)
-      fault_key(reader, child, NULL, "a message cannot be called 'scratch': the generated header "
+      fault_key(reader, child, NULL,
+                "a message cannot be called 'scratch': the generated header "
                 "has that constant");
     if (!check_keys(reader, child, keys, LENGTH(keys), "a message"))
       continue;

@@ -49,8 +49,7 @@ static size_t usable_names(struct reader *reader, const struct given_set *set, s
   size_t every = arithmetic_names(reader, &all), count = 0;
   *names = reader_keep(reader, every, sizeof **names);
   for (size_t i = 0; i < every; i++) {
-    bool mine = contains(set->name, set->names, all[i]) ||
-                contains(set->derived, derived, all[i]);
+    bool mine = contains(set->name, set->names, all[i]) || contains(set->derived, derived, all[i]);
     bool somewhere = false;
     for (size_t g = 0; g < d->givens && !somewhere; g++)
       somewhere = contains(d->given[g].name, d->given[g].names, all[i]) ||
@@ -61,8 +60,7 @@ static size_t usable_names(struct reader *reader, const struct given_set *set, s
   return count;
 }
 
-static void read_given_names(struct reader *reader, const struct tree *node,
-                             struct given_set *set)
+static void read_given_names(struct reader *reader, const struct tree *node, struct given_set *set)
 {
   static const char *const keys[] = {"set", "then"};
   if (!check_keys(reader, node, keys, LENGTH(keys), "a set of 'given'"))

@@ -1,5 +1,5 @@
-/* What a plugin offers and asks for: requires, provides, phases, axis, measures, parameters that it adds
- * to bodies and materials. */
+/* What a plugin offers and asks for: requires, provides, phases, axis, measures, parameters that it
+ * adds to bodies and materials. */
 #include <string.h>
 
 #include "descriptor/reader.h"
@@ -42,8 +42,18 @@ static size_t measurable_names(struct reader *reader, const char ***names)
   return count;
 }
 
-static void read_measure(struct reader *reader, const struct tree *node,
-                         const char *const *names, size_t count, struct measure *measure)
+/* A field's own name is enough: with components it is measured by component. */
+static bool is_measurable(const char *name, const char *const *names, size_t count)
+{
+  size_t length = strlen(name);
+  for (size_t i = 0; i < count; i++)
+    if (strncmp(names[i], name, length) == 0 && (names[i][length] == 0 || names[i][length] == '_'))
+      return true;
+  return false;
+}
+
+static void read_measure(struct reader *reader, const struct tree *node, const char *const *names,
+                         size_t count, struct measure *measure)
 {
   static const char *const keys[] = {"unit", "at", "formula", "doc", "arguments"};
   static const char *const places[] = {"point", "body", "run"};
@@ -68,6 +78,9 @@ static void read_measure(struct reader *reader, const struct tree *node,
                   "'%s' is no place of a measure", at);
   if (measure->formula)
     check_expression(reader, tree_get(node, "formula"), measure->formula, names, count);
+  else if (known && measure->at == MEASURE_POINT && !is_measurable(measure->name, names, count))
+    fault_key(reader, node, "a formula, or the name of a field",
+              "measure '%s' at points has no formula", node->key);
   measure->arguments =
       read_parameters(reader, tree_get(node, "arguments"), false, &measure->argument);
 }

@@ -66,8 +66,8 @@ void fault_unknown(struct reader *reader, const struct tree *node, bool at_key,
   } else {
     size_t length = (size_t)snprintf(expected, sizeof expected, "known are ");
     for (size_t i = 0; i < count && length < sizeof expected; i++)
-      length += (size_t)snprintf(expected + length, sizeof expected - length, "%s%s",
-                                 i ? ", " : "", known[i]);
+      length += (size_t)snprintf(expected + length, sizeof expected - length, "%s%s", i ? ", " : "",
+                                 known[i]);
   }
   va_list list;
   va_start(list, format);
@@ -109,25 +109,23 @@ bool check_name(struct reader *reader, const struct tree *node, bool at_key, con
 {
   if (is_name(name))
     return true;
-  (at_key ? fault_key : fault)(
-      reader, node, "a letter, then letters, digits and '_', at most 63 of them",
-      "'%s' cannot be a name", name);
+  (at_key ? fault_key : fault)(reader, node,
+                               "a letter, then letters, digits and '_', at most 63 of them",
+                               "'%s' cannot be a name", name);
   return false;
 }
 
 bool is_reserved(const char *name)
 {
   static const char *const word[] = {
-      "auto",     "break",    "case",     "char",     "const",    "continue", "default",
-      "do",       "double",   "else",     "enum",     "extern",   "float",    "for",
-      "goto",     "if",       "inline",   "int",      "long",     "register", "restrict",
-      "return",   "short",    "signed",   "sizeof",   "static",   "struct",   "switch",
-      "typedef",  "union",    "unsigned", "void",     "volatile", "while",    "asm",
-      "bool",     "true",     "false",    "NULL",     "NAN",      "INFINITY", "HUGE_VAL",
-      "linux",    "unix",     "count",    "status",   "sqrt",     "exp",      "log",
-      "log10",    "sin",      "cos",      "tan",      "asin",     "acos",     "atan",
-      "sinh",     "cosh",     "tanh",     "abs",      "min",      "max",      "pow",
-      "pi",
+      "auto",     "break",    "case",   "char",     "const",    "continue", "default",  "do",
+      "double",   "else",     "enum",   "extern",   "float",    "for",      "goto",     "if",
+      "inline",   "int",      "long",   "register", "restrict", "return",   "short",    "signed",
+      "sizeof",   "static",   "struct", "switch",   "typedef",  "union",    "unsigned", "void",
+      "volatile", "while",    "asm",    "bool",     "true",     "false",    "NULL",     "NAN",
+      "INFINITY", "HUGE_VAL", "linux",  "unix",     "count",    "status",   "sqrt",     "exp",
+      "log",      "log10",    "sin",    "cos",      "tan",      "asin",     "acos",     "atan",
+      "sinh",     "cosh",     "tanh",   "abs",      "min",      "max",      "pow",      "pi",
   };
   for (size_t i = 0; i < LENGTH(word); i++)
     if (strcmp(word[i], name) == 0)

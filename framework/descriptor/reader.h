@@ -22,8 +22,8 @@ struct reader {
   size_t faults;
 };
 
-/* Zeroed memory of the descriptor. A descriptor takes some kilobytes: where there are none left, the
- * program ends. */
+/* Zeroed memory of the descriptor. A descriptor takes some kilobytes: where there are none left,
+ * the program ends. */
 void *reader_keep(struct reader *, size_t count, size_t size);
 char *reader_text(struct reader *, const char *text, size_t length);
 
@@ -55,7 +55,8 @@ const char **read_texts(struct reader *, const struct tree *, const char *what, 
 /* A unit that the database knows; null if absent (a fault if `required`) or wrong. */
 const char *read_unit(struct reader *, const struct tree *, const char *key, bool required);
 
-/* Names of the parameters that expressions may use (real, integer, boolean). Returns their number. */
+/* Names of the parameters that expressions may use (real, integer, boolean). Returns their number.
+ */
 size_t arithmetic_names(struct reader *, const char ***names);
 bool check_expression(struct reader *, const struct tree *, const char *text,
                       const char *const *names, size_t count);

@@ -38,8 +38,10 @@ static void set_range(json_t *object, const char *key, const struct range *range
   if (!range->stated)
     return;
   json_t *value = json_object();
-  json_object_set_new(value, "lower", isfinite(range->lower) ? json_real(range->lower) : json_null());
-  json_object_set_new(value, "upper", isfinite(range->upper) ? json_real(range->upper) : json_null());
+  json_object_set_new(value, "lower",
+                      isfinite(range->lower) ? json_real(range->lower) : json_null());
+  json_object_set_new(value, "upper",
+                      isfinite(range->upper) ? json_real(range->upper) : json_null());
   json_object_set_new(value, "lower_open", json_boolean(range->lower_open));
   json_object_set_new(value, "upper_open", json_boolean(range->upper_open));
   json_object_set_new(object, key, value);

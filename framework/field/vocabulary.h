@@ -7,8 +7,8 @@
 
 #include <gamut/run.h>
 
-/* X(name, where, components, unit, meaning). Symmetric tensors: xx yy zz xy yz zx. Full tensors: row by
- * row, xx xy xz yx yy yz zx zy zz. */
+/* X(name, where, components, unit, meaning). Symmetric tensors: xx yy zz xy yz zx. Full tensors:
+ * row by row, xx xy xz yx yy yz zx zy zz. */
 #define VOCABULARY(X)                                                                              \
   X(position, GAMUT_AT_POINT, 3, "m", "where the point is")                                        \
   X(velocity, GAMUT_AT_POINT, 3, "m/s", "velocity of the point")                                   \
@@ -54,8 +54,8 @@ struct vocable {
 /* The entry of that name, or null. */
 const struct vocable *vocabulary_find(const char *name);
 const struct vocable *vocabulary_at(size_t index); /* null past the end */
-/* "xx", "x", "" for component k of a field with n components; "0", "1" ... where n is none of 1, 2, 3,
- * 6, 9. No field has more than VOCABULARY_COMPONENTS_MAX. */
+/* "xx", "x", "" for component k of a field with n components; "0", "1" ... where n is none of 1, 2,
+ * 3, 6, 9. No field has more than VOCABULARY_COMPONENTS_MAX. */
 enum { VOCABULARY_COMPONENTS_MAX = 32 };
 const char *component_name(unsigned components, unsigned k);
 

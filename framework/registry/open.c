@@ -32,8 +32,6 @@ static gamut_status refuse(struct entry *entry, struct trace *trace, const char 
   return trace_fail(trace, GAMUT_PLUGIN, "%s", words);
 }
 
-/* ---- which file ------------------------------------------------------------------------------- */
-
 static const struct {
   const char *suffix, *level, *word;
 } levels[] = {{".v4", "x86-64-v4", "v4"}, {".v3", "x86-64-v3", "v3"}, {"", "baseline", "baseline"}};
@@ -81,8 +79,6 @@ static bool find_object(struct entry *entry, struct trace *trace, char *file, si
   return false;
 }
 
-/* ---- loading ---------------------------------------------------------------------------------- */
-
 /* What a plugin must leave alone: rounding, flushing of small numbers, traps. */
 static bool same_arithmetic(const fenv_t *before, const fenv_t *after)
 {
@@ -119,8 +115,8 @@ static gamut_status load_object(struct registry *registry, struct entry *entry, 
   return GAMUT_OK;
 }
 
-static gamut_status load_unchanged(struct registry *registry, struct entry *entry,
-                                   const char *file, struct trace *trace, lt_dlhandle *handle)
+static gamut_status load_unchanged(struct registry *registry, struct entry *entry, const char *file,
+                                   struct trace *trace, lt_dlhandle *handle)
 {
   fenv_t before, after;
   fegetenv(&before);
@@ -130,11 +126,10 @@ static gamut_status load_unchanged(struct registry *registry, struct entry *entr
   if (status == GAMUT_OK && !same_arithmetic(&before, &after))
     status = refuse(entry, trace,
                     "loading '%s' changes the processor's rounding, flush-to-zero or trap flags; "
-                    "build it without -ffast-math and its like", file);
+                    "build it without -ffast-math and its like",
+                    file);
   return status;
 }
-
-/* ---- checks ----------------------------------------------------------------------------------- */
 
 static gamut_status check_plugin(struct entry *entry, const char *file,
                                  const struct gamut_plugin *plugin, struct trace *trace)
@@ -143,14 +138,19 @@ static gamut_status check_plugin(struct entry *entry, const char *file,
   if (plugin->abi != GAMUT_ABI)
     return refuse(entry, trace,
                   "'%s' was built for plugin ABI %u and this gamut has ABI %d: build it again with "
-                  "the <gamut/plugin.h> of this gamut", file, (unsigned)plugin->abi, GAMUT_ABI);
+                  "the <gamut/plugin.h> of this gamut",
+                  file, (unsigned)plugin->abi, GAMUT_ABI);
   if (plugin->size != sizeof *plugin)
-    return refuse(entry, trace,
-                  "the plugin record in '%s' has %zu bytes and this gamut's has %zu: build it again "
-                  "with the <gamut/plugin.h> of this gamut", file, plugin->size, sizeof *plugin);
+    return refuse(
+        entry, trace,
+        "the plugin record in '%s' has %zu bytes and this gamut's has %zu: build it again "
+        "with the <gamut/plugin.h> of this gamut",
+        file, plugin->size, sizeof *plugin);
   if (!plugin->name || !plugin->digest || !plugin->ops)
-    return refuse(entry, trace, "the plugin record in '%s' is not filled in: register with "
-                  "GAMUT_EOS(name, ...) and its like", file);
+    return refuse(entry, trace,
+                  "the plugin record in '%s' is not filled in: register with "
+                  "GAMUT_EOS(name, ...) and its like",
+                  file);
   if (plugin->kind != (uint32_t)d->kind)
     return refuse(entry, trace, "'%s' is registered as %s and %s.yaml says %s", file,
                   plugin->kind < GAMUT_KINDS ? kind_name((enum gamut_kind)plugin->kind)
@@ -160,9 +160,11 @@ static gamut_status check_plugin(struct entry *entry, const char *file,
     return refuse(entry, trace, "'%s' is registered as '%s' and the YAML says '%s'", file,
                   plugin->name, d->name);
   if (strcmp(plugin->digest, d->digest) != 0)
-    return refuse(entry, trace,
-                  "'%s' was built from another version of %s.yaml (interface %s, now %s): build the "
-                  "plugin again (make)", file, d->name, plugin->digest, d->digest);
+    return refuse(
+        entry, trace,
+        "'%s' was built from another version of %s.yaml (interface %s, now %s): build the "
+        "plugin again (make)",
+        file, d->name, plugin->digest, d->digest);
   struct slot *slots;
   size_t count = descriptor_layout(d, &slots);
   free(slots);
@@ -170,8 +172,8 @@ static gamut_status check_plugin(struct entry *entry, const char *file,
   if (plugin->block_size != block)
     return refuse(entry, trace,
                   "the struct of a block in '%s' has %zu bytes and %s.yaml asks for %zu: write "
-                  "%s.gamut.h again with `gamut header` and build", file, plugin->block_size, d->name,
-                  block, d->name);
+                  "%s.gamut.h again with `gamut header` and build",
+                  file, plugin->block_size, d->name, block, d->name);
   return GAMUT_OK;
 }
 
@@ -179,13 +181,34 @@ static gamut_status check_plugin(struct entry *entry, const char *file,
 static size_t operations_size(enum gamut_kind kind)
 {
   static const size_t size[GAMUT_KINDS] = {
-      [GAMUT_KIND_EOS] = sizeof(struct { size_t size; GAMUT_EOS_OPS(void) }),
-      [GAMUT_KIND_STRENGTH] = sizeof(struct { size_t size; GAMUT_STRENGTH_OPS(void) }),
-      [GAMUT_KIND_ELASTICITY] = sizeof(struct { size_t size; GAMUT_ELASTICITY_OPS(void) }),
-      [GAMUT_KIND_EFFECT] = sizeof(struct { size_t size; GAMUT_EFFECT_OPS(void) }),
-      [GAMUT_KIND_RANDOM_FIELD] = sizeof(struct { size_t size; GAMUT_RANDOM_FIELD_OPS(void) }),
-      [GAMUT_KIND_ESTIMATOR] = sizeof(struct { size_t size; GAMUT_ESTIMATOR_OPS(void) }),
-      [GAMUT_KIND_SOLVER] = sizeof(struct { size_t size; GAMUT_SOLVER_OPS(void) }),
+      [GAMUT_KIND_EOS] = sizeof(struct {
+        size_t size;
+        GAMUT_EOS_OPS(void)
+      }),
+      [GAMUT_KIND_STRENGTH] = sizeof(struct {
+        size_t size;
+        GAMUT_STRENGTH_OPS(void)
+      }),
+      [GAMUT_KIND_ELASTICITY] = sizeof(struct {
+        size_t size;
+        GAMUT_ELASTICITY_OPS(void)
+      }),
+      [GAMUT_KIND_EFFECT] = sizeof(struct {
+        size_t size;
+        GAMUT_EFFECT_OPS(void)
+      }),
+      [GAMUT_KIND_RANDOM_FIELD] = sizeof(struct {
+        size_t size;
+        GAMUT_RANDOM_FIELD_OPS(void)
+      }),
+      [GAMUT_KIND_ESTIMATOR] = sizeof(struct {
+        size_t size;
+        GAMUT_ESTIMATOR_OPS(void)
+      }),
+      [GAMUT_KIND_SOLVER] = sizeof(struct {
+        size_t size;
+        GAMUT_SOLVER_OPS(void)
+      }),
   };
   return size[kind];
 }
@@ -233,7 +256,8 @@ static gamut_status check_operations(struct entry *entry, const char *file, cons
   if (size != expected)
     return refuse(entry, trace,
                   "the table of operations in '%s' has %zu bytes and should have %zu: write "
-                  "%s.gamut.h again with `gamut header` and build", file, size, expected, d->name);
+                  "%s.gamut.h again with `gamut header` and build",
+                  file, size, expected, d->name);
   for (size_t i = 0; i < own + d->variants + d->tasks; i++) {
     const char *name = i < own                 ? kind_operation(d->kind, i)
                        : i < own + d->variants ? d->variant[i - own].kernel
@@ -262,8 +286,10 @@ static gamut_status open_entry(struct registry *registry, struct entry *entry, s
   snprintf(symbol, sizeof symbol, "%s_LTX_gamut_plugin", d->name);
   const struct gamut_plugin *plugin = lt_dlsym(handle, symbol);
   if (!plugin) {
-    status = refuse(entry, trace, "'%s' exports no '%s': end the C file with a registration line, "
-                    "such as GAMUT_EOS(%s, ...)", file, symbol, d->name);
+    status = refuse(entry, trace,
+                    "'%s' exports no '%s': end the C file with a registration line, "
+                    "such as GAMUT_EOS(%s, ...)",
+                    file, symbol, d->name);
     goto done;
   }
   TRY(check_plugin(entry, file, plugin, trace));

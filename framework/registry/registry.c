@@ -57,15 +57,14 @@ gamut_status registry_take(struct registry *registry, const char *file, const ch
     status = trace_fail(trace, GAMUT_INTERNAL, "no memory left");
     goto done;
   }
-  status = descriptor_read(entry->file, registry->units, aloud ? trace : silent,
-                           &entry->descriptor);
+  status =
+      descriptor_read(entry->file, registry->units, aloud ? trace : silent, &entry->descriptor);
   if (status == GAMUT_PLUGIN && !aloud) {
     struct place place = {.file = entry->file, .line = 1, .column = 1, .width = 1};
     trace_warn_at(trace, &place, NULL, "`gamut verify` on this file shows them",
                   "this plugin is skipped: its YAML has %zu fault%s", trace_errors(silent),
                   trace_errors(silent) == 1 ? "" : "s");
-    status = name_from_path(entry) ? GAMUT_OK
-                                   : trace_fail(trace, GAMUT_INTERNAL, "no memory left");
+    status = name_from_path(entry) ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "no memory left");
   }
   TRY(status);
   registry->entry = grow(registry->entry, registry->entries, sizeof(struct entry *), &failed);
@@ -114,8 +113,8 @@ gamut_status registry_sort(struct registry *registry, struct entry *first, struc
     if (!entry->shadowed)
       registry->usable[registry->usables++] = entry;
     else
-      trace_note(trace, "plugin %s of '%s' is shadowed by '%s'", entry->descriptor->id,
-                 entry->file, entry->shadowed->file);
+      trace_note(trace, "plugin %s of '%s' is shadowed by '%s'", entry->descriptor->id, entry->file,
+                 entry->shadowed->file);
   }
   qsort(registry->usable, registry->usables, sizeof(struct entry *), by_id);
   return GAMUT_OK;
@@ -261,8 +260,7 @@ gamut_status registry_add(struct registry *registry, const char *path, struct tr
     snprintf(file, sizeof file, "%s/%s.yaml", real, strrchr(real, '/') + 1);
     if (!is_file(file))
       return trace_fail_at(trace, GAMUT_PLUGIN, &nowhere, NULL,
-                           "a plugin's folder and its YAML have one name", "'%s' is missing",
-                           file);
+                           "a plugin's folder and its YAML have one name", "'%s' is missing", file);
   }
   for (size_t i = 0; i < registry->usables; i++)
     if (strcmp(registry->usable[i]->file, file) == 0) {

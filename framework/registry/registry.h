@@ -1,5 +1,5 @@
-/* Finds descriptors, opens shared objects. Discovery reads YAML only; a shared object is opened when a
- * plan needs it, and stays until the program ends. */
+/* Finds descriptors, opens shared objects. Discovery reads YAML only; a shared object is opened
+ * when a plan needs it, and stays until the program ends. */
 #ifndef GAMUT_REGISTRY_H
 #define GAMUT_REGISTRY_H
 
@@ -11,22 +11,26 @@
 
 struct registry;
 
-/* Where plugins are looked for, in order: --plugin-path, GAMUT_PLUGIN_PATH (ignored when the program
- * is privileged), $XDG_DATA_HOME/gamut/plugins (off with user_plugins false), the plugins beside the
- * build tree's command when it runs in place, then the installed folder. Only absolute folders that
- * belong to the user, to root or to the owner of the running program, and that nobody else may write;
- * others are skipped with a warning (the build tree of the running program may be shared with a group).
- * The first of two plugins with one id wins; the shadowed one is noted. A plugin whose YAML has faults
- * is skipped with a warning; where a scene names it, its faults are told.
+/* Where plugins are looked for, in order: --plugin-path, GAMUT_PLUGIN_PATH (ignored when the
+ * program is privileged), $XDG_DATA_HOME/gamut/plugins (off with user_plugins false), the plugins
+ * beside the build tree's command when it runs in place, then the installed folder. Only absolute
+ * folders that belong to the user, to root or to the owner of the running program, and that nobody
+ * else may write; others are skipped with a warning (the build tree of the running program may be
+ * shared with a group). The first of two plugins with one id wins; the shadowed one is noted. A
+ * plugin whose YAML has faults is skipped with a warning; where a scene names it, its faults are
+ * told.
  *
  * Below such a folder a plugin is KIND/NAME/NAME.yaml, NAME/NAME.yaml or NAME.yaml, with its shared
- * objects beside it or in .libs there. The build
- * tree keeps the two apart: a file `plugins.path` in the folder of the running executable has lines
- * "YAMLDIR SODIR" (one blank, both relative to that folder, e.g. "../plugins plugins"), and
- * SODIR/KIND/NAME/NAME.so belongs to YAMLDIR/KIND/NAME/NAME.yaml. The installed folder is the string
- * GAMUT_PLUGIN_FOLDER that the build defines. A folder with a plugins.path may also be named in
- * --plugin-path or GAMUT_PLUGIN_PATH (tests do). */
-struct registry_options { const char *plugin_path; bool user_plugins; };
+ * objects beside it or in .libs there. The build tree keeps the two apart: a file `plugins.path` in
+ * the folder of the running executable has lines "YAMLDIR SODIR" (one blank, both relative to that
+ * folder, e.g. "../plugins plugins"), and SODIR/KIND/NAME/NAME.so belongs to
+ * YAMLDIR/KIND/NAME/NAME.yaml. The installed folder is the string GAMUT_PLUGIN_FOLDER that the build
+ * defines. A folder with a plugins.path may also be named in --plugin-path or GAMUT_PLUGIN_PATH
+ * (tests do). */
+struct registry_options {
+  const char *plugin_path;
+  bool user_plugins;
+};
 
 gamut_status registry_new(const struct registry_options *, const struct units *, struct trace *,
                           struct registry **);
@@ -36,17 +40,18 @@ size_t registry_count(const struct registry *);
 const struct descriptor *registry_at(const struct registry *, size_t index); /* sorted by id */
 /* By "kind/name"; null if not installed. */
 const struct descriptor *registry_find(const struct registry *, const char *id);
-/* By kind and name. On failure records GAMUT_SCENE at `place`: suggests the nearest of that kind, or
- * says that NAME is a plugin of another kind. */
+/* By kind and name. On failure records GAMUT_SCENE at `place`: suggests the nearest of that kind,
+ * or says that NAME is a plugin of another kind. */
 const struct descriptor *registry_expect(const struct registry *, enum gamut_kind, const char *name,
                                          const struct place *, const char *path, struct trace *);
-/* Adds one plugin from its YAML file, or from a folder NAME with NAME.yaml (`gamut verify ./mine`). */
+/* Adds one plugin from its YAML file, or from a folder NAME with NAME.yaml
+ * (`gamut verify ./mine`). It wins over others with its id. */
 gamut_status registry_add(struct registry *, const char *path, struct trace *,
                           const struct descriptor **);
 
 /* Opens the plugin's shared object (once) and checks it: symbol, sizes, ABI, kind, name, digest,
- * block size, floating-point flags unchanged by loading. Refused with GAMUT_PLUGIN and the real reason,
- * naming the file. Not thread-safe.
+ * block size, floating-point flags unchanged by loading. Refused with GAMUT_PLUGIN and the real
+ * reason, naming the file. Not thread-safe.
  *
  * Each instruction-set level is a shared object of its own, and all export the plain symbol
  * NAME_LTX_gamut_plugin. Of these the first that exists and that this processor can run is opened:

@@ -69,8 +69,8 @@ static bool program_place(char *folder, size_t size, uid_t *owner)
   return true;
 }
 
-/* Why a folder is not safe, or null. Whoever owns the program can do anything to its user anyway, so
- * that owner is trusted as the user and root are. */
+/* Why a folder is not safe, or null. Whoever owns the program can do anything to its user anyway,
+ * so that owner is trusted as the user and root are. */
 static const char *unsafe(const char *folder, bool in_place)
 {
   struct stat info;
@@ -164,8 +164,8 @@ static gamut_status add_folder(const struct search *search, const char *folder)
 {
   char path[PATH_MAX + 32];
   snprintf(path, sizeof path, "%s/plugins.path", folder);
-  FILE *file = folder[0] == '/' && (search->in_place || !unsafe(folder, false)) ? fopen(path, "r")
-                                                                                 : NULL;
+  FILE *file =
+      folder[0] == '/' && (search->in_place || !unsafe(folder, false)) ? fopen(path, "r") : NULL;
   if (!file)
     return search->in_place ? GAMUT_OK : add_root(search, folder, folder);
   gamut_status status = add_pairs(search, folder, file);
@@ -226,8 +226,6 @@ gamut_status search_roots(struct registry *registry, const struct registry_optio
 done:
   return status;
 }
-
-/* ---- what is found ---------------------------------------------------------------------------- */
 
 static gamut_status take_at(struct registry *registry, struct root *root, const char *below,
                             const char *name, struct trace *trace)

@@ -139,11 +139,12 @@ static void test_header(const struct descriptor *d)
       "#define SAMPLE_SCRATCH 24\n",
       "#define SAMPLE_MODE_EXACT 1\n",
       "#define SAMPLE_GONE GAMUT_MESSAGE(GAMUT_STOP, 1)\n",
-      "  const double *A; /* Pa: strength */\n",
-      "  const double *velocity_gradient[9]; /* 1/s: ",
+      "  const double *A; ",
+      "  const double *velocity_gradient[9]; ",
       "  const double *stress_begin[6]; ",
       "  double *stress[6]; ",
       "  const struct gamut_strength_law *strength; /* null if absent */\n",
+      "/* Pa: strength */\n",
       "  double *scratch[24]; ",
       "  GAMUT_ELASTICITY_OPS(struct sample)\n",
       "  void (*fluid)(const struct sample *);",
@@ -202,7 +203,8 @@ static void test_derivatives(void)
   struct slot *slots;
   struct descriptor *d = read_sample(
       EOS "parameters:\n  C0: {unit: m/s, random: true, doc: c}\n  S: {unit: 1, doc: s}\n"
-          "derivatives: {of: pressure, by: [C0, S]}\n", words, sizeof words);
+          "derivatives: {of: pressure, by: [C0, S]}\n",
+      words, sizeof words);
   if (!tap_ok(d != NULL, "an eos with derivatives is read")) {
     printf("# %s\n", words);
     return;
@@ -225,35 +227,37 @@ static void test_refused(void)
   refused("parameters:\n  A: {unit: Pa}\n", ":7:3:", "'doc' is missing");
   refused("parameters: {A: {unit: Paa, doc: a}}\n", ":6:24:", "'Paa' is no unit");
   refused("parameters: {A: {unit: Pa, default: 3 m, doc: a}}\n", ":6:37:", "is no quantity in Pa");
-  refused("parameters: {A: {unit: Pa, default: -3 Pa, physical: \"(0, inf)\", doc: a}}\n", ":6:37:",
-          "outside its physical range");
-  refused("parameters: {A: {unit: Pa, default: 3 Pa, fit: \"[4, 5]\", doc: a}}\n", ":6:37:",
-          "outside the range of its fit");
-  refused("parameters: {A: {unit: Pa, fit: \"4 to 5\", doc: a}}\n", ":6:33:",
-          "cannot read the range");
+  refused("parameters: {A: {unit: Pa, default: -3 Pa, physical: \"(0, inf)\", doc: a}}\n",
+          ":6:37:", "outside its physical range");
+  refused("parameters: {A: {unit: Pa, default: 3 Pa, fit: \"[4, 5]\", doc: a}}\n",
+          ":6:37:", "outside the range of its fit");
+  refused("parameters: {A: {unit: Pa, fit: \"4 to 5\", doc: a}}\n",
+          ":6:33:", "cannot read the range");
   refused("parameters: {A: {unit: Pa, fit: \"[5, 4]\", doc: a}}\n", ":6:33:", "range is empty");
   refused("parameters: {A: {unit: Pa, fit: \"[4, 5] m\", doc: a}}\n", ":6:33:", "dimension");
   refused("parameters: {A: {unit: Pa, fit: \"[-1, 5]\", physical: \"(0, inf)\", doc: a}}\n",
           ":6:33:", "beyond its physical range");
   refused("parameters: {A: {type: choise, doc: a, unit: 1}}\n", ":6:24:", "did you mean 'choice'?");
-  refused("parameters: {A: {type: choice, choices: [a, b], default: c, doc: a}}\n", ":6:58:",
-          "none of its choices");
+  refused("parameters: {A: {type: choice, choices: [a, b], default: c, doc: a}}\n",
+          ":6:58:", "none of its choices");
   refused("parameters: {A: {type: boolean, unit: Pa, doc: a}}\n", ":6:33:", "no meaning");
   refused("parameters: {double: {unit: Pa, doc: a}}\n", ":6:14:", "has a meaning in C");
   refused("parameters: {pressure: {unit: Pa, doc: a}}\n", ":5:", "declared twice");
   refused("parameters: {a-b: {unit: Pa, doc: a}}\n", ":6:14:", "cannot be a name");
-  refused("constraints: [\"A > \"]\nparameters: {A: {unit: Pa, doc: a}}\n", ":6:15:", "cannot read");
+  refused("constraints: [\"A > \"]\nparameters: {A: {unit: Pa, doc: a}}\n",
+          ":6:15:", "cannot read");
   refused("constraints: [\"A > B\"]\nparameters: {A: {unit: Pa, doc: a}}\n", ":6:15:", "B");
-  refused("constraints: [\"A + 1\"]\nparameters: {A: {unit: Pa, doc: a}}\n", ":6:15:",
-          "compares nothing");
+  refused("constraints: [\"A + 1\"]\nparameters: {A: {unit: Pa, doc: a}}\n",
+          ":6:15:", "compares nothing");
   refused("variants: [{when: \"1 > 0\", kernel: pressure}]\n", ":6:36:", "is there already");
-  refused("variants: [{when: \"1 > 0\", kernel: k}, {when: \"1 > 0\", kernel: k}]\n", ":6:64:",
-          "is there already");
+  refused("variants: [{when: \"1 > 0\", kernel: k}, {when: \"1 > 0\", kernel: k}]\n",
+          ":6:64:", "is there already");
   refused("derivatives: {of: pressure, by: [A]}\n", ":6:34:", "neither a real parameter");
   refused("messages: {m: {severity: halt, text: t}}\n", ":6:26:", "unknown severity");
   refused("phases: [one]\n", ":6:1:", "no meaning for plugins of kind eos");
   refused("parameters: {A: {unit: 1, doc: a}, B: {unit: 1, doc: b}}\n"
-          "given: [{set: [A], then: {B: A}}, {set: [B, D]}]\n", ":7:45:", "no parameter");
+          "given: [{set: [A], then: {B: A}}, {set: [B, D]}]\n",
+          ":7:45:", "no parameter");
   refused("requires: [a, a]\n", ":6:15:", "stands twice");
 }
 
@@ -269,12 +273,12 @@ static void test_identity(void)
        "stands in a file called 'sample.yaml'"},
       {"plugin: eos/sample\nsummary: s\noutputs: [pressure, sound_speed]\n",
        "'version' is missing"},
-      {"plugin: eos/sample\nversion: 1\nsummary: s\noutputs: [pressure]\n",
-       "writes 'sound_speed'"},
+      {"plugin: eos/sample\nversion: 1\nsummary: s\noutputs: [pressure]\n", "writes 'sound_speed'"},
       {"plugin: eos/sample\nversion: 1\nsummary: s\noutputs: [pressur, sound_speed]\n",
        "did you mean 'pressure'?"},
       {"plugin: eos/sample\nversion: 1\nsummary: s\ninputs: [energy]\n"
-       "outputs: [pressure, sound_speed, energy]\n", "belongs under 'state'"},
+       "outputs: [pressure, sound_speed, energy]\n",
+       "belongs under 'state'"},
       {"[1, 2]\n", "no plugin's YAML"},
   };
   char words[8192];

@@ -1,5 +1,5 @@
-/* The registry: discovery, order, shadowing, unsafe folders, suggestions; plugins compiled on the fly
- * where there is a compiler. */
+/* The registry: discovery, order, shadowing, unsafe folders, suggestions; plugins compiled on the
+ * fly where there is a compiler. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE 1
 #endif
@@ -71,7 +71,8 @@ static void test_discovery(void)
   make_plugin("first", "strength", "voce", STRENGTH_REST);
   make_plugin("second", "eos", "linear", EOS_REST);
   make_plugin("second", "eos", "cubic", EOS_REST);
-  make_plugin("second", "eos", "broken", "inputs: [compresion]\noutputs: [pressure, sound_speed]\n");
+  make_plugin("second", "eos", "broken",
+              "inputs: [compresion]\noutputs: [pressure, sound_speed]\n");
   snprintf(paths, sizeof paths, "%s/first:%s/second", folder, folder);
   struct registry *registry = make_registry(paths, trace);
   tap_ok(registry_count(registry) == 3, "%zu plugins, 3 expected", registry_count(registry));
@@ -83,7 +84,8 @@ static void test_discovery(void)
          "the shadowed one is noted");
   tap_ok(strstr(words, "broken.yaml") && trace_errors(trace) == 0, "the faulty one is a warning");
 
-  tap_ok(registry_expect(registry, GAMUT_KIND_EOS, "cubic", &place, "a", trace) != NULL, "expected");
+  tap_ok(registry_expect(registry, GAMUT_KIND_EOS, "cubic", &place, "a", trace) != NULL,
+         "expected");
   tap_ok(!registry_expect(registry, GAMUT_KIND_EOS, "lineer", &place, "a", trace) &&
              strstr(told(trace), "did you mean 'linear'?"),
          "the nearest is suggested");
@@ -173,8 +175,6 @@ static void test_pairs(void)
   registry_free(registry);
   trace_free(trace);
 }
-
-/* ---- shared objects --------------------------------------------------------------------------- */
 
 static const char source[] =
     "#include <stddef.h>\n#include <stdint.h>\n"
