@@ -179,7 +179,8 @@ struct gamut_host {
   bool (*body_contains)(const struct gamut_body *, const double x[3]);
   /* Initial velocity at x, m/s. */
   void (*body_velocity)(const struct gamut_body *, const double x[3], double v[3]);
-  double (*body_density)(const struct gamut_body *); /* reference density, kg/m3 */
+  /* Reference density, kg/m3. */
+  double (*body_density)(const struct gamut_run *, const struct gamut_body *);
 
   /* Makes the set of a body with room for `points` points (padding is added by gamut_arrange).
    * Called in create, once a body; the arrays exist after the core has planned the run. */
@@ -272,8 +273,8 @@ static inline const double *gamut_table(const struct gamut_values *v, const char
 #define gamut_bodies(run) (GAMUT_HOST(run)->bodies(run))
 #define gamut_body_at(run, i) (GAMUT_HOST(run)->body((run), (i)))
 #define gamut_points(run, body, n, set) (GAMUT_HOST(run)->points((run), (body), (n), (set)))
-#define gamut_field_named(run, name, field) (GAMUT_HOST(run)->field((run), (name), (field)))
-#define gamut_add_task(run, task) (GAMUT_HOST(run)->task((run), (task)))
+#define gamut_field_named(run, name, handle) (GAMUT_HOST(run)->field((run), (name), (handle)))
+#define gamut_add_task(run, described) (GAMUT_HOST(run)->task((run), (described)))
 #define gamut_allocate(run, label, bytes) (GAMUT_HOST(run)->allocate((run), (label), (bytes)))
 #define gamut_release(run, memory) (GAMUT_HOST(run)->release((run), (memory)))
 #define gamut_time(run) (GAMUT_HOST(run)->time(run))

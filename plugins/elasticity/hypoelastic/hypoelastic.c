@@ -1,0 +1,11 @@
+#include "hypoelastic.h"
+
+static void stress(const struct hypoelastic *b)
+{
+  hypoelastic_trial(b);
+  hypoelastic_return(b);
+  hypoelastic_turn(b);
+  hypoelastic_pressure(b);
+}
+
+GAMUT_ELASTICITY(hypoelastic, .stress = stress, .start = hypoelastic_start)

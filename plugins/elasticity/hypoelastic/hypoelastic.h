@@ -1,0 +1,48 @@
+/* The stages of a step, in order, and what they leave for each other in the block's scratch arrays.
+ */
+#ifndef HYPOELASTIC_H
+#define HYPOELASTIC_H
+
+#include "hypoelastic.gamut.h"
+
+/* Names of the scratch arrays. Those of the return are free again for the energy. */
+enum scratch {
+  TRIAL,                 /* 6: trial deviator in the midpoint frame, then the returned one */
+  TURN = TRIAL + 6,      /* 3: axis of half the step's rotation times tan(angle / 4) */
+  TRIAL_SIZE = TURN + 3, /* von Mises stress of the trial deviator */
+  STRAIN_SIZE,           /* equivalent deviatoric strain of the step */
+  WORK_BEGIN,            /* rotated begin deviator : strain */
+  WORK_TRIAL,            /* trial deviator : strain, then deviatoric work per reference volume */
+  VOLUME_STEP,           /* J1 - J0 */
+  COMPRESSION,           /* at the end */
+  INCREMENT,             /* of plastic strain */
+  FLOW,                  /* flow stress at the end of the step */
+  EXCESS,                /* trial size over the flow stress without flow */
+  LOWER,
+  UPPER,        /* bracket of the increment */
+  ACTIVE,       /* 1 while the point still iterates */
+  OUTSIDE,      /* 1 where Newton's step left the bracket */
+  ENERGY_KNOWN, /* energy without the work of the end pressure */
+  SCRATCH_USED
+};
+
+_Static_assert(SCRATCH_USED <= HYPOELASTIC_SCRATCH, "scratch in hypoelastic.yaml is too small");
+
+/* The value of one of two numbers, where `mask` is 1 or 0: exact for finite numbers. Where the
+ * other one is what stands in memory already, compilers turn `?:` into a conditional store and the
+ * loop into a slow one. */
+GAMUT_INLINE double choose(double mask, double one, double other)
+{
+  return mask * one + (1.0 - mask) * other;
+}
+
+void hypoelastic_trial(const struct hypoelastic *);
+void hypoelastic_return(const struct hypoelastic *);
+void hypoelastic_turn(const struct hypoelastic *);
+void hypoelastic_pressure(const struct hypoelastic *);
+void hypoelastic_start(const struct hypoelastic *);
+
+/* The points with active[i] > 0, ascending; returns how many. */
+size_t hypoelastic_lanes(const double *active, size_t count, uint32_t *lane);
+
+#endif

@@ -1,0 +1,79 @@
+/* Planes: what walls, symmetry and prescribed velocities do to the grid.
+ *
+ * A plane at rest whose normal lies along an axis falls on a plane of nodes. With quadratic shapes it is
+ * then made by images: matter behind it is the mirror image of the matter before it, so the sums of the
+ * node one behind are added to those of the node one before (what is odd with its sign turned), and
+ * after the update the node behind gets the image of the velocity. With linear shapes, for a plane that
+ * moves along its normal and for an oblique one the condition holds node by node, at the nodes on or
+ * behind the plane. */
+#ifndef MATERIAL_POINT_METHOD_BOUNDARY_H
+#define MATERIAL_POINT_METHOD_BOUNDARY_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <gamut/run.h>
+
+struct model;
+
+enum { PLANES_MAX = 64, BEFORE = 0, ON = 1, BEHIND = 2 };
+
+/* Nodes across a plane that is made by images; -1 where there is none. */
+struct column {
+  int32_t touched[3]; /* BEFORE, ON, BEHIND */
+  bool contact;
+};
+
+/* A node that some plane acts on, as it was before planes acted. */
+struct touched {
+  int64_t line;
+  double x[3];
+  double mass, momentum[3], force[3];
+  int8_t owner[3]; /* plane that its impulse is booked to, by component */
+  int8_t first;    /* the first plane that touches it */
+};
+
+struct plane {
+  struct gamut_plane given;
+  struct gamut_reaction *reaction;
+  int axis, sign;        /* of the normal; axis -1: oblique */
+  bool moves, images;
+  bool odd[3];           /* by component: the velocity's difference from the plane's turns its sign */
+  int32_t level;         /* node number of the plane along its axis */
+  double impulse[3], area;
+  struct column *column;
+  size_t columns, column_capacity;
+  int32_t *node;         /* touched nodes with the condition node by node */
+  size_t nodes, node_capacity;
+};
+
+struct planes {
+  struct plane *plane[PLANES_MAX];
+  size_t count;
+  bool any_moves;
+  struct touched *touched;
+  size_t touches, touched_capacity;
+  int32_t *of_line;      /* number of a touched node by its line, or -1 */
+  size_t of_line_capacity;
+  double work;           /* by the planes on the matter in this step */
+  double impulse[3], torque[3];
+};
+
+gamut_status planes_add(struct model *, const struct gamut_plane *,
+                        const struct gamut_reaction **);
+void planes_destroy(struct model *);
+/* Puts the grid's origin so that planes fall on nodes; an error where that cannot be. */
+gamut_status planes_fix_origin(struct model *);
+/* Finds the nodes that planes act on; after a sort, and in each step where a plane moves. */
+gamut_status planes_find(struct model *);
+/* Between the sums and the update of the grid, and after it. */
+void planes_before_update(struct model *);
+void planes_after_update(struct model *, double step);
+/* The same for the second pass of MUSL: momentum and mass, then velocity. */
+void planes_before_second(struct model *);
+void planes_after_second(struct model *);
+/* Signed distance of a place from a plane, positive where matter may be. */
+double plane_distance(const struct plane *, const double x[3], double time);
+
+#endif

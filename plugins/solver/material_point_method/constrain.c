@@ -1,0 +1,301 @@
+/* What planes do to the nodes that boundary.c found. */
+#include <math.h>
+#include <string.h>
+
+#include "boundary.h"
+#include "model.h"
+
+static double *line_of(const struct model *m, int32_t touched)
+{
+  return touched < 0 ? NULL : m->grid.line + (size_t)m->planes.touched[touched].line * LINE;
+}
+
+/* Adds the image of the node behind to the node before. The mass is line[mass], the momentum begins at
+ * `vector`; forces go along where there are any. */
+static void fold(const struct plane *p, double *const line[3], int mass, int vector, bool force)
+{
+  double *before = line[BEFORE], *on = line[ON], *behind = line[BEHIND];
+  for (int k = 0; k < 3; k++) {
+    const double v = p->given.velocity[k];
+    if (p->odd[k]) {
+      on[vector + k] = on[mass] * v;
+      if (force)
+        on[LINE_FORCE + k] = 0.0;
+    }
+    if (before == NULL || behind == NULL)
+      continue;
+    const double sign = p->odd[k] ? -1.0 : 1.0, shift = p->odd[k] ? 2.0 * v * behind[mass] : 0.0;
+    before[vector + k] += sign * behind[vector + k] + shift;
+    behind[vector + k] = 0.0;
+    if (force) {
+      before[LINE_FORCE + k] += sign * behind[LINE_FORCE + k];
+      behind[LINE_FORCE + k] = 0.0;
+    }
+  }
+  if (before != NULL && behind != NULL) {
+    before[mass] += behind[mass];
+    behind[mass] = 0.0;
+  }
+}
+
+/* Whether the matter at the plane's node, left alone, would go into the plane. */
+static bool presses(const struct plane *p, const double *line, double step)
+{
+  double speed = 0.0;
+  for (int k = 0; k < 3; k++)
+    speed += p->given.normal[k] * ((line[LINE_MOMENTUM + k] + step * line[LINE_FORCE + k]) /
+                                       line[LINE_MASS] -
+                                   p->given.velocity[k]);
+  return speed < 0.0;
+}
+
+void planes_before_update(struct model *m)
+{
+  struct planes *ps = &m->planes;
+  const double step = gamut_time_step(m->run);
+  for (size_t i = 0; i < ps->touches; i++) {
+    struct touched *t = &ps->touched[i];
+    double *line = line_of(m, (int32_t)i);
+    t->mass = line[LINE_MASS];
+    memcpy(t->momentum, line + LINE_MOMENTUM, sizeof t->momentum);
+    memcpy(t->force, line + LINE_FORCE, sizeof t->force);
+    line[LINE_MARK] = 1.0;
+  }
+  for (size_t i = 0; i < ps->count; i++) {
+    struct plane *p = ps->plane[i];
+    for (size_t c = 0; c < p->columns; c++) {
+      struct column *column = &p->column[c];
+      double *line[3];
+      for (int k = 0; k < 3; k++)
+        line[k] = line_of(m, column->touched[k]);
+      column->contact = line[ON][LINE_MASS] > m->grid.empty &&
+                        (!p->given.unilateral || presses(p, line[ON], step));
+      if (column->contact)
+        fold(p, line, LINE_MASS, LINE_MOMENTUM, true);
+    }
+  }
+}
+
+/* The image of the node before, at the node behind: the velocity at `vector`, its change where there is
+ * one. */
+static void unfold(const struct plane *p, double *const line[3], bool change)
+{
+  if (line[BEHIND] == NULL || line[BEFORE] == NULL)
+    return;
+  for (int k = 0; k < 3; k++) {
+    const double v = line[BEFORE][LINE_VELOCITY + k];
+    line[BEHIND][LINE_VELOCITY + k] = p->odd[k] ? 2.0 * p->given.velocity[k] - v : v;
+    if (change)
+      line[BEHIND][LINE_CHANGE + k] =
+          p->odd[k] ? -line[BEFORE][LINE_CHANGE + k] : line[BEFORE][LINE_CHANGE + k];
+  }
+}
+
+/* Takes the tangential velocity down by at most friction times the normal impulse. */
+static void rub(const struct plane *p, double *v, double mass, double normal_impulse)
+{
+  const double *n = p->given.normal;
+  double slip[3], along = 0.0, speed = 0.0;
+  for (int k = 0; k < 3; k++)
+    along += (v[k] - p->given.velocity[k]) * n[k];
+  for (int k = 0; k < 3; k++) {
+    slip[k] = v[k] - p->given.velocity[k] - along * n[k];
+    speed += slip[k] * slip[k];
+  }
+  speed = sqrt(speed);
+  const double most = p->given.friction * normal_impulse / mass;
+  if (!(speed > 0.0) || !(most > 0.0))
+    return;
+  const double part = most < speed ? most / speed : 1.0;
+  for (int k = 0; k < 3; k++)
+    v[k] -= part * slip[k];
+}
+
+/* The condition at one node, on the velocity before and after the step. True in contact. */
+static bool hold(const struct plane *p, double *line, double mass, const double force[3],
+                 double step)
+{
+  const double *n = p->given.normal, *wall = p->given.velocity;
+  double *v = line + LINE_VELOCITY, *change = line + LINE_CHANGE, old[3], into = 0.0, was = 0.0;
+  double press = 0.0;
+  for (int k = 0; k < 3; k++) {
+    old[k] = v[k] - change[k];
+    into += (v[k] - wall[k]) * n[k];
+    was += (old[k] - wall[k]) * n[k];
+    press -= step * force[k] * n[k];
+  }
+  if (p->given.unilateral && into >= 0.0)
+    return false;
+  if (p->given.normal_rule != GAMUT_PLANE_FREE)
+    for (int k = 0; k < 3; k++) {
+      v[k] -= into * n[k];
+      old[k] -= was * n[k];
+    }
+  if (p->given.tangential_rule == GAMUT_PLANE_PRESCRIBED) {
+    const double out = (v[0] - wall[0]) * n[0] + (v[1] - wall[1]) * n[1] + (v[2] - wall[2]) * n[2];
+    for (int k = 0; k < 3; k++)
+      v[k] = old[k] = wall[k] + out * n[k];
+  } else if (p->given.friction > 0.0) {
+    rub(p, v, mass, press);
+  }
+  for (int k = 0; k < 3; k++)
+    change[k] = v[k] - old[k];
+  return true;
+}
+
+/* Area of a plane that a node stands for. */
+static double node_area(const struct model *m, const struct plane *p, const double x[3])
+{
+  const double h = m->cell, pi = 3.14159265358979323846;
+  switch (m->geometry) {
+  case GEOMETRY_1D:
+    return 1.0;
+  case GEOMETRY_PLANE_STRAIN:
+    return h;
+  case GEOMETRY_AXISYMMETRIC:
+    if (p->axis == 1 && fabs(x[0]) < 1e-6 * h)
+      return 0.25 * pi * h * h;
+    return 2.0 * pi * fabs(x[0]) * h;
+  case GEOMETRY_3D:
+    break;
+  }
+  return h * h;
+}
+
+static void column_friction(struct model *m, const struct plane *p, const struct column *c,
+                            double step)
+{
+  double normal = 0.0;
+  for (int k = 0; k < 3; k++) {
+    const double *line = line_of(m, c->touched[k]);
+    if (line == NULL)
+      continue;
+    const struct touched *t = &m->planes.touched[c->touched[k]];
+    for (int i = 0; i < 3; i++)
+      normal += p->given.normal[i] * (t->mass * line[LINE_CHANGE + i] - step * t->force[i]);
+  }
+  double *line = line_of(m, c->touched[ON]);
+  double before[3];
+  memcpy(before, line + LINE_VELOCITY, sizeof before);
+  rub(p, line + LINE_VELOCITY, line[LINE_SHARE], normal);
+  for (int k = 0; k < 3; k++)
+    line[LINE_CHANGE + k] += line[LINE_VELOCITY + k] - before[k];
+}
+
+/* Books what planes did at the nodes they touch; these nodes are left out of the other sums. */
+static void book(struct model *m, double step)
+{
+  struct planes *ps = &m->planes;
+  for (size_t i = 0; i < ps->touches; i++) {
+    const struct touched *t = &ps->touched[i];
+    const double *line = line_of(m, (int32_t)i);
+    double impulse[3], after[3];
+    if (t->mass == 0.0)
+      continue;
+    for (int k = 0; k < 3; k++) {
+      const double v = line[LINE_VELOCITY + k], change = line[LINE_CHANGE + k], old = v - change;
+      const double mean = v - 0.5 * change, own = t->mass * change - step * t->force[k];
+      struct plane *p = ps->plane[t->owner[k]];
+      m->nodes.kinetic_before += 0.5 * t->mass * old * old;
+      m->nodes.kinetic_after += 0.5 * t->mass * v * v;
+      m->nodes.work += step * t->force[k] * mean;
+      ps->work += own * mean;
+      p->reaction->work += own * mean;
+      impulse[k] = own + m->pic * (t->mass * old - t->momentum[k]);
+      after[k] = t->momentum[k] + t->mass * change;
+      p->impulse[k] += impulse[k];
+      ps->impulse[k] += impulse[k];
+      m->nodes.speed = fmax(m->nodes.speed, fabs(v));
+    }
+    for (int k = 0; k < 3; k++) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      ps->torque[k] += t->x[a] * (after[b] - t->momentum[b] - step * t->force[b]) -
+                       t->x[b] * (after[a] - t->momentum[a] - step * t->force[a]);
+      m->nodes.spin_after[k] += t->x[a] * after[b] - t->x[b] * after[a];
+    }
+  }
+}
+
+void planes_after_update(struct model *m, double step)
+{
+  struct planes *ps = &m->planes;
+  ps->work = 0.0;
+  memset(ps->impulse, 0, sizeof ps->impulse);
+  memset(ps->torque, 0, sizeof ps->torque);
+  for (size_t i = 0; i < ps->count; i++) {
+    struct plane *p = ps->plane[i];
+    p->area = 0.0;
+    memset(p->impulse, 0, sizeof p->impulse);
+    for (size_t n = 0; n < p->nodes; n++) {
+      const struct touched *t = &ps->touched[p->node[n]];
+      double *line = line_of(m, p->node[n]);
+      if (line[LINE_SHARE] <= m->grid.empty || !hold(p, line, line[LINE_SHARE], t->force, step))
+        continue;
+      if (plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell)
+        p->area += node_area(m, p, t->x);
+    }
+  }
+  for (size_t i = ps->count; i-- > 0;) {
+    struct plane *p = ps->plane[i];
+    for (size_t c = 0; c < p->columns; c++) {
+      if (!p->column[c].contact)
+        continue;
+      double *line[3];
+      for (int k = 0; k < 3; k++)
+        line[k] = line_of(m, p->column[c].touched[k]);
+      unfold(p, line, true);
+      if (p->given.friction > 0.0)
+        column_friction(m, p, &p->column[c], step);
+      p->area += node_area(m, p, ps->touched[p->column[c].touched[ON]].x);
+    }
+  }
+  book(m, step);
+  for (size_t i = 0; i < ps->count; i++) {
+    struct plane *p = ps->plane[i];
+    for (int k = 0; k < 3; k++)
+      p->reaction->force[k] = -p->impulse[k] / step;
+    p->reaction->area = p->area;
+  }
+}
+
+void planes_before_second(struct model *m)
+{
+  struct planes *ps = &m->planes;
+  for (size_t i = 0; i < ps->count; i++) {
+    struct plane *p = ps->plane[i];
+    for (size_t c = 0; c < p->columns; c++) {
+      double *line[3];
+      for (int k = 0; k < 3; k++)
+        line[k] = line_of(m, p->column[c].touched[k]);
+      if (p->column[c].contact)
+        fold(p, line, LINE_SHARE, LINE_VELOCITY, false);
+    }
+  }
+}
+
+void planes_after_second(struct model *m)
+{
+  struct planes *ps = &m->planes;
+  static const double none[3] = {0.0, 0.0, 0.0};
+  for (size_t i = 0; i < ps->count; i++) {
+    struct plane *p = ps->plane[i];
+    for (size_t n = 0; n < p->nodes; n++) {
+      double *line = line_of(m, p->node[n]), keep[3];
+      if (line[LINE_SHARE] <= m->grid.empty)
+        continue;
+      memcpy(keep, line + LINE_CHANGE, sizeof keep);
+      hold(p, line, line[LINE_SHARE], none, 0.0);
+      memcpy(line + LINE_CHANGE, keep, sizeof keep);
+    }
+  }
+  for (size_t i = ps->count; i-- > 0;) {
+    struct plane *p = ps->plane[i];
+    for (size_t c = 0; c < p->columns; c++) {
+      double *line[3];
+      for (int k = 0; k < 3; k++)
+        line[k] = line_of(m, p->column[c].touched[k]);
+      if (p->column[c].contact)
+        unfold(p, line, false);
+    }
+  }
+}

@@ -1,0 +1,370 @@
+#include "grid.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Open addressing on a key made of three places of 21 bits each. */
+struct block_table {
+  size_t size;      /* a power of two */
+  uint64_t *key;    /* 0: free */
+  int32_t *number;
+};
+
+static uint64_t key_of(const int32_t at[3])
+{
+  uint64_t key = 1;
+  for (int k = 2; k >= 0; k--)
+    key = key << 21 | (uint64_t)(at[k] + (1 << 20));
+  return key;
+}
+
+static uint64_t mix(uint64_t x)
+{
+  x ^= x >> 31;
+  x *= UINT64_C(0x7fb5d329728ea185);
+  x ^= x >> 27;
+  x *= UINT64_C(0x81dadef4bc2dd44d);
+  return x ^ x >> 33;
+}
+
+static size_t table_slot(const struct block_table *t, uint64_t key)
+{
+  size_t s = mix(key) & (t->size - 1);
+  while (t->key[s] != 0 && t->key[s] != key)
+    s = (s + 1) & (t->size - 1);
+  return s;
+}
+
+static int32_t table_find(const struct block_table *t, const int32_t at[3])
+{
+  if (t->size == 0)
+    return -1;
+  const size_t s = table_slot(t, key_of(at));
+  return t->key[s] == 0 ? -1 : t->number[s];
+}
+
+static void table_put(struct block_table *t, const int32_t at[3], int32_t number)
+{
+  const uint64_t key = key_of(at);
+  const size_t s = table_slot(t, key);
+  t->key[s] = key;
+  t->number[s] = number;
+}
+
+static void table_free(struct gamut_run *run, struct block_table *t)
+{
+  if (t == NULL)
+    return;
+  gamut_release(run, t->key);
+  gamut_release(run, t->number);
+  gamut_release(run, t);
+}
+
+static gamut_status table_new(struct gamut_run *run, size_t size, struct block_table **table)
+{
+  struct block_table *t = gamut_allocate(run, "grid", sizeof *t);
+  if (t != NULL) {
+    t->size = size;
+    t->key = gamut_allocate(run, "grid", size * sizeof *t->key);
+    t->number = gamut_allocate(run, "grid", size * sizeof *t->number);
+  }
+  if (t == NULL || t->key == NULL || t->number == NULL) {
+    table_free(run, t);
+    return GAMUT_INTERNAL;
+  }
+  *table = t;
+  return GAMUT_OK;
+}
+
+gamut_status grid_create(struct grid *g, struct gamut_run *run, unsigned dimension, unsigned order,
+                         double cell)
+{
+  static const int side[] = {0, 64, 8, 4};
+  memset(g, 0, sizeof *g);
+  g->run = run;
+  g->dimension = dimension;
+  g->order = order;
+  g->side = side[dimension];
+  g->tile = g->side + 2 + (int)order;
+  g->neighbours = 1;
+  g->block_nodes = g->tile_nodes = 1;
+  for (unsigned k = 0; k < dimension; k++) {
+    g->neighbours *= 3;
+    g->block_nodes *= (size_t)g->side;
+    g->tile_nodes *= (size_t)g->tile;
+  }
+  g->cell = cell;
+  g->inverse_cell = 1.0 / cell;
+  g->shift = order == 2 ? 0.5 : 0.0;
+  return GAMUT_OK;
+}
+
+void grid_destroy(struct grid *g)
+{
+  if (g->run == NULL)
+    return;
+  gamut_release(g->run, g->block);
+  gamut_release(g->run, g->line);
+  table_free(g->run, g->table);
+  gamut_release(g->run, g->spare_block);
+  gamut_release(g->run, g->spare_line);
+  table_free(g->run, g->spare_table);
+  gamut_release(g->run, g->source);
+  gamut_release(g->run, g->box);
+}
+
+/* Makes room for `wanted` blocks of nodes, keeping those there are. */
+static gamut_status grow(struct grid *g, size_t wanted)
+{
+  const size_t capacity = wanted + wanted / 2 + 32;
+  size_t size = 64;
+  while (size < 2 * capacity)
+    size *= 2;
+  struct block_table *table = NULL;
+  if (table_new(g->run, size, &table) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  const size_t bytes = g->block_nodes * LINE * sizeof(double);
+  struct node_block *block = gamut_allocate(g->run, "grid", capacity * sizeof *block);
+  double *line = gamut_allocate(g->run, "grid", capacity * bytes);
+  if (block == NULL || line == NULL) {
+    gamut_release(g->run, block);
+    gamut_release(g->run, line);
+    table_free(g->run, table);
+    return GAMUT_INTERNAL;
+  }
+  for (size_t b = 0; b < g->blocks; b++) {
+    block[b] = g->block[b];
+    table_put(table, block[b].at, (int32_t)b);
+  }
+  gamut_release(g->run, g->block);
+  gamut_release(g->run, g->line);
+  table_free(g->run, g->table);
+  g->block = block;
+  g->line = line;
+  g->table = table;
+  g->capacity = capacity;
+  return GAMUT_OK;
+}
+
+#define SWAP(type, a, b)                                                                           \
+  do {                                                                                             \
+    type swap_ = (a);                                                                              \
+    (a) = (b);                                                                                     \
+    (b) = swap_;                                                                                   \
+  } while (0)
+
+gamut_status grid_begin(struct grid *g)
+{
+  SWAP(struct node_block *, g->block, g->spare_block);
+  SWAP(double *, g->line, g->spare_line);
+  SWAP(struct block_table *, g->table, g->spare_table);
+  SWAP(size_t, g->capacity, g->spare_capacity);
+  g->blocks = 0;
+  if (g->table == NULL)
+    return grow(g, 1);
+  memset(g->table->key, 0, g->table->size * sizeof *g->table->key);
+  return GAMUT_OK;
+}
+
+gamut_status grid_block(struct grid *g, const int32_t at[3], int32_t *number)
+{
+  *number = table_find(g->table, at);
+  if (*number >= 0)
+    return GAMUT_OK;
+  if (g->blocks == g->capacity && grow(g, g->blocks + 1) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  struct node_block *b = &g->block[g->blocks];
+  memset(b, 0, sizeof *b);
+  for (int k = 0; k < 3; k++)
+    b->at[k] = at[k];
+  b->source = -1;
+  *number = (int32_t)g->blocks++;
+  table_put(g->table, at, *number);
+  return GAMUT_OK;
+}
+
+static void neighbour_place(const struct grid *g, const int32_t at[3], unsigned o, int32_t place[3])
+{
+  for (unsigned k = 0; k < 3; k++) {
+    place[k] = k < g->dimension ? at[k] + (int32_t)(o % 3) - 1 : 0;
+    o /= 3;
+  }
+}
+
+gamut_status grid_finish(struct grid *g)
+{
+  const size_t filled = g->blocks;
+  for (size_t b = 0; b < filled; b++) {
+    for (unsigned o = 0; o < g->neighbours; o++) {
+      int32_t place[3], number;
+      neighbour_place(g, g->block[b].at, o, place);
+      if (grid_block(g, place, &number) != GAMUT_OK)
+        return GAMUT_INTERNAL;
+    }
+  }
+  const size_t doubles = g->block_nodes * LINE;
+  for (size_t b = 0; b < g->blocks; b++) {
+    for (unsigned o = 0; o < g->neighbours; o++) {
+      int32_t place[3];
+      neighbour_place(g, g->block[b].at, o, place);
+      g->block[b].neighbour[o] = table_find(g->table, place);
+    }
+    const int32_t old = g->spare_table == NULL ? -1 : table_find(g->spare_table, g->block[b].at);
+    double *line = g->line + b * doubles;
+    if (old >= 0)
+      memcpy(line, g->spare_line + (size_t)old * doubles, doubles * sizeof *line);
+    else
+      memset(line, 0, doubles * sizeof *line);
+  }
+  return GAMUT_OK;
+}
+
+gamut_status grid_sources(struct grid *g, size_t sources)
+{
+  g->sources = sources;
+  if (sources <= g->source_capacity)
+    return GAMUT_OK;
+  const size_t capacity = sources + sources / 4 + 4;
+  gamut_release(g->run, g->source);
+  gamut_release(g->run, g->box);
+  g->source = gamut_allocate(g->run, "grid", capacity * sizeof *g->source);
+  g->box = gamut_allocate(g->run, "boxes of blocks",
+                          capacity * g->tile_nodes * LINE * sizeof *g->box);
+  g->source_capacity = g->source != NULL && g->box != NULL ? capacity : 0;
+  return g->source_capacity == 0 ? GAMUT_INTERNAL : GAMUT_OK;
+}
+
+void grid_source(struct grid *g, size_t index, int32_t block)
+{
+  struct source *s = &g->source[index];
+  s->block = block;
+  s->next = -1;
+  for (unsigned k = 0; k < 3; k++) {
+    s->lower[k] = 0;
+    s->upper[k] = k < g->dimension ? g->tile : 1;
+  }
+  int32_t *link = &g->block[block].source;
+  while (*link >= 0)
+    link = &g->source[*link].next;
+  *link = (int32_t)index;
+}
+
+int64_t grid_line(const struct grid *g, const int32_t node[3])
+{
+  int32_t at[3] = {0, 0, 0};
+  int64_t index = 0, stride = 1;
+  for (unsigned k = 0; k < g->dimension; k++) {
+    at[k] = grid_block_of(g, node[k]);
+    index += stride * (node[k] - at[k] * g->side);
+    stride *= g->side;
+  }
+  const int32_t b = table_find(g->table, at);
+  return b < 0 ? -1 : (int64_t)b * (int64_t)g->block_nodes + index;
+}
+
+void grid_node(const struct grid *g, const struct node_block *b, size_t index, int32_t node[3])
+{
+  for (unsigned k = 0; k < 3; k++) {
+    node[k] = k < g->dimension ? b->at[k] * g->side + (int32_t)(index % (size_t)g->side) : 0;
+    index /= (size_t)g->side;
+  }
+}
+
+/* What of a source's box lies in the block of nodes that is neighbour o of the source's own. */
+struct overlap {
+  int lower[3], upper[3]; /* in nodes of the tile */
+  int offset[3];          /* the tile's node that is the block's node 0 */
+};
+
+static bool overlap_of(const struct grid *g, const struct source *s, unsigned o, struct overlap *v)
+{
+  for (unsigned k = 0; k < 3; k++) {
+    const bool real = k < g->dimension;
+    const int step = real ? (int)(o % 3) - 1 : 0;
+    o /= 3;
+    v->offset[k] = real ? 1 + g->side * step : 0;
+    const int end = v->offset[k] + (real ? g->side : 1);
+    v->lower[k] = s->lower[k] > v->offset[k] ? s->lower[k] : v->offset[k];
+    v->upper[k] = s->upper[k] < end ? s->upper[k] : end;
+    if (v->lower[k] >= v->upper[k])
+      return false;
+  }
+  return true;
+}
+
+static size_t block_row(const struct grid *g, const struct overlap *v, int y, int z)
+{
+  const int i = v->lower[0] - v->offset[0];
+  return (size_t)(i + g->side * ((y - v->offset[1]) + g->side * (z - v->offset[2])));
+}
+
+static size_t tile_row(const struct grid *g, int x, int y, int z)
+{
+  return (size_t)(x + g->tile * (y + g->tile * z));
+}
+
+static size_t box_row(const struct source *s, int x, int y, int z)
+{
+  const int nx = s->upper[0] - s->lower[0], ny = s->upper[1] - s->lower[1];
+  return (size_t)((x - s->lower[0]) + nx * ((y - s->lower[1]) + ny * (z - s->lower[2])));
+}
+
+void grid_load(const struct grid *g, const struct source *s, double *tile)
+{
+  const struct node_block *b = &g->block[s->block];
+  for (unsigned o = 0; o < g->neighbours; o++) {
+    struct overlap v;
+    if (!overlap_of(g, s, o, &v))
+      continue;
+    const double *line = g->line + (size_t)b->neighbour[o] * g->block_nodes * LINE;
+    const size_t bytes = (size_t)(v.upper[0] - v.lower[0]) * LINE * sizeof *line;
+    for (int z = v.lower[2]; z < v.upper[2]; z++)
+      for (int y = v.lower[1]; y < v.upper[1]; y++)
+        memcpy(tile + LINE * tile_row(g, v.lower[0], y, z), line + LINE * block_row(g, &v, y, z),
+               bytes);
+  }
+}
+
+void grid_leave(struct grid *g, size_t source, double *tile)
+{
+  const struct source *s = &g->source[source];
+  double *box = g->box + source * g->tile_nodes * LINE;
+  const size_t bytes = (size_t)(s->upper[0] - s->lower[0]) * LINE * sizeof *box;
+  for (int z = s->lower[2]; z < s->upper[2]; z++)
+    for (int y = s->lower[1]; y < s->upper[1]; y++) {
+      double *row = tile + LINE * tile_row(g, s->lower[0], y, z);
+      memcpy(box + LINE * box_row(s, s->lower[0], y, z), row, bytes);
+      memset(row, 0, bytes);
+    }
+}
+
+static void add_box(const struct grid *g, size_t index, unsigned o, double *lines)
+{
+  const struct source *s = &g->source[index];
+  struct overlap v;
+  if (!overlap_of(g, s, o, &v))
+    return;
+  const double *box = g->box + index * g->tile_nodes * LINE;
+  const size_t doubles = (size_t)(v.upper[0] - v.lower[0]) * LINE;
+  for (int z = v.lower[2]; z < v.upper[2]; z++)
+    for (int y = v.lower[1]; y < v.upper[1]; y++) {
+      const double *restrict from = box + LINE * box_row(s, v.lower[0], y, z);
+      double *restrict to = lines + LINE * block_row(g, &v, y, z);
+#pragma omp simd
+      for (size_t i = 0; i < doubles; i++)
+        to[i] += from[i];
+    }
+}
+
+void grid_collect(const struct grid *g, const struct node_block *b, double *lines)
+{
+  memset(lines, 0, g->block_nodes * LINE * sizeof *lines);
+  for (unsigned o = 0; o < g->neighbours; o++) {
+    if (b->neighbour[o] < 0)
+      continue;
+    /* seen from the neighbour, this block lies in the opposite direction */
+    const unsigned opposite = g->neighbours - 1 - o;
+    for (int32_t s = g->block[b->neighbour[o]].source; s >= 0; s = g->source[s].next)
+      add_box(g, (size_t)s, opposite, lines);
+  }
+}

@@ -1,0 +1,134 @@
+/* What the files of this solver share: the model that is marched, and who does what. */
+#ifndef MATERIAL_POINT_METHOD_MODEL_H
+#define MATERIAL_POINT_METHOD_MODEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <gamut/run.h>
+
+#include "boundary.h"
+#include "grid.h"
+#include "transfer.h"
+
+enum geometry { GEOMETRY_1D, GEOMETRY_PLANE_STRAIN, GEOMETRY_AXISYMMETRIC, GEOMETRY_3D };
+
+/* Sums over the points of a block, one line of GAMUT_LANES partial sums each: lane = slot mod lanes, so
+ * that the size of a chunk cannot matter. */
+enum point_sum {
+  SUM_MASS,
+  SUM_MOMENTUM,
+  SUM_SPIN = SUM_MOMENTUM + 3,   /* moment of momentum about the origin */
+  SUM_KINETIC = SUM_SPIN + 3,
+  SUM_INTERNAL,
+  SUM_FORCE,                     /* external */
+  SUM_TORQUE = SUM_FORCE + 3,
+  SUM_POWER = SUM_TORQUE + 3,    /* external force times velocity */
+  SUM_MOBILITY,                  /* half the external force squared over the mass */
+  POINT_SUMS
+};
+
+/* Sums over nodes of one grid update. */
+struct node_sums {
+  double kinetic_before, kinetic_after;
+  double work;         /* of all forces */
+  double spin_after[3];
+  double lost[3];      /* momentum at nodes that take no part */
+  double speed;        /* fastest component */
+};
+
+struct body {
+  const struct gamut_body *scene;
+  struct gamut_set *set;
+  double density;
+  double lower[3], spacing[3]; /* of the lattice that its points are laid on */
+  long count[3];
+  size_t points;
+};
+
+/* Lines of the ledger and the running totals behind them. */
+struct ledger {
+  double now[POINT_SUMS];  /* sums over all points at the end of the last step */
+  double *mass, *kinetic, *internal;
+  double *momentum[3], *spin[3];
+  double *external_work, *plane_work, *scatter_loss, *gather_loss, *remainder;
+  double *external_impulse[3], *plane_impulse[3], *empty_nodes[3];
+  double *external_torque[3], *plane_torque[3], *spin_loss[3];
+};
+
+struct fields {
+  struct gamut_field position, velocity, mass, volume_ratio, stress, energy, velocity_gradient,
+      external_force, sound_speed, omega_squared, cell_size, reference_volume;
+};
+
+struct model {
+  struct gamut_run *run;
+  const struct gamut_host *host;
+  enum geometry geometry;
+  unsigned dimension, order;
+  bool second_pass;               /* MUSL: the gradient comes from momentum projected anew */
+  double cell, pic, courant, fixed_step;
+  bool bounded;
+  double lower[3], upper[3];      /* domain */
+  int points_per_cell;            /* by default, along one axis */
+
+  struct fields field;
+  struct body *body;
+  size_t bodies;
+  struct grid grid;
+  bool origin_fixed[3];
+  struct planes planes;
+  const struct transfer *transfer;
+  struct work **work;             /* one a thread */
+  int threads;
+
+  double *block_sum;              /* POINT_SUMS a block of points */
+  double *block_omega;            /* largest omega squared of a block of points */
+  size_t block_capacity;
+  struct node_sums *node_sum;     /* one a block of nodes */
+  size_t node_capacity;
+  struct node_sums nodes;         /* of the last update */
+  uint32_t *scratch_source;       /* for the sort */
+  int32_t *scratch_block, *scratch_count;
+  uint16_t *scratch_cell;
+  size_t scratch_capacity, scratch_blocks;
+
+  bool collected;                 /* the grid holds this step's sums already */
+  double moved;                   /* farthest that a point can have gone since the sort, cells */
+  double omega_squared;           /* largest of all points */
+  double last_step;
+  uint64_t taken;                 /* steps */
+  struct ledger ledger;
+};
+
+/* layout.c: the points of the bodies. */
+gamut_status layout_bodies(struct model *, const struct gamut_values *);
+gamut_status layout_fill(struct model *);
+/* Chooses the grid's origin along the axes that no plane has fixed. */
+void layout_origin(struct model *);
+
+/* sort.c */
+gamut_status sort_points(struct model *);
+
+/* step.c */
+gamut_status step_register(struct model *);
+gamut_status step_first_scatter(struct model *);
+void step_collect(struct model *);
+
+/* ledger.c */
+gamut_status ledger_open(struct model *);
+void ledger_start(struct model *);
+void ledger_keep(struct model *, double step);
+/* Sums over all points, block by block. */
+void ledger_add_up(const struct model *, double total[POINT_SUMS]);
+
+/* measures.c */
+gamut_status measure_value(struct model *, const char *name, const struct gamut_values *,
+                           double *value);
+
+/* The model's own error texts about a point. */
+gamut_status point_failed(struct model *, const struct gamut_set *, size_t slot, const double x[3],
+                          const double v[3], const char *what);
+
+#endif

@@ -1,0 +1,58 @@
+/* Transfers between the points of a block and the tile of nodes around it, one set of functions for each
+ * dimension and order of the shape functions. */
+#ifndef MATERIAL_POINT_METHOD_TRANSFER_H
+#define MATERIAL_POINT_METHOD_TRANSFER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <gamut/run.h>
+
+enum { STRIDE = GAMUT_CHUNK_MAX + 24 }; /* no multiple of a page: arrays must not alias in cache */
+
+/* What one thread works on a block with. */
+struct work {
+  double place[3][STRIDE];  /* 0 to 1 from the lowest node that the point touches */
+  int32_t node[STRIDE];     /* number of that node in the tile */
+  double value[6][STRIDE];  /* gathered: velocity and its change */
+  double *tile;             /* nodes' lines, from the grid */
+  double *sums;             /* nodes' lines, to the grid; clear between blocks */
+  double *point_sum;        /* lanes of POINT_SUMS */
+  double omega_squared;
+  int lower[3], upper[3];   /* nodes that were added to; empty between blocks */
+};
+
+/* Points as a transfer sees them; `count` is a multiple of GAMUT_LANES, `real` of them are no padding. */
+struct point_view {
+  size_t count, real;
+  const double *position[3], *velocity[3], *mass, *volume_ratio, *stress[6];
+  const double *force[3]; /* external */
+  double density;         /* reference */
+  bool axisymmetric;
+};
+
+struct locate {
+  const double *position[3];
+  size_t count;
+  double inverse_cell;
+  double origin[3];       /* in cells: of the tile's node 0, shape's shift included */
+};
+
+struct transfer {
+  /* Fills place and node; widens lower and upper where `grow`. False if some point lies outside the
+   * tile (or nowhere at all); then node is not to be used. */
+  bool (*locate)(struct work *, const struct locate *, bool grow);
+  /* Values of a line at the points: components 3 to 5; and with gradient 0 to 2 as well. */
+  void (*gather)(struct work *, size_t count);
+  void (*gather_gradient)(struct work *, size_t count, double inverse_cell,
+                          double *const gradient[9]);
+  /* Mass, momentum and forces into `sums`; or mass and momentum alone. */
+  void (*scatter)(struct work *, const struct point_view *, double inverse_cell);
+  void (*scatter_momentum)(struct work *, const struct point_view *);
+};
+
+/* dimension 1 to 3, order 1 or 2 */
+const struct transfer *transfer_of(unsigned dimension, unsigned order);
+
+#endif

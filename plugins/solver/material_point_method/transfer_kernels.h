@@ -1,0 +1,254 @@
+/* The transfers for one DIMENSION (1 to 3) and ORDER (1 or 2). Included by transfer.c once for each; so
+ * it has no guard, and takes its three macros away at the end.
+ *
+ * Points are taken one after the other, in the order of their slots: the lanes of a vector are the
+ * quantities of a node's line. That is right in any order of points, and sums do not depend on how
+ * points are cut into chunks. */
+
+#define NODES (ORDER + 1)
+#define NODES_Y (DIMENSION > 1 ? NODES : 1)
+#define NODES_Z (DIMENSION > 2 ? NODES : 1)
+#define SIDE (DIMENSION == 1 ? 64 : DIMENSION == 2 ? 8 : 4)
+#define TILE (SIDE + 2 + ORDER)
+
+static bool NAMED(locate)(struct work *w, const struct locate *in, bool grow)
+{
+  const double scale = in->inverse_cell, end = SIDE + 2;
+  int lower[3] = {SIDE + 2, SIDE + 2, SIDE + 2}, upper[3] = {-1, -1, -1}, bad = 0;
+  int32_t *restrict node = w->node;
+  for (size_t i = 0; i < in->count; i++)
+    node[i] = 0;
+  int stride = 1;
+  for (unsigned k = 0; k < DIMENSION; k++) {
+    const double *restrict x = in->position[k];
+    double *restrict place = w->place[k];
+    const double origin = in->origin[k];
+    int low = SIDE + 2, high = -1;
+#pragma omp simd reduction(min : low) reduction(max : high) reduction(| : bad)
+    for (size_t i = 0; i < in->count; i++) {
+      const double at = x[i] * scale - origin;
+      const int inside = at >= 0.0 && at < end;
+      const int cell = (int)(inside ? at : 0.0);
+      bad |= !inside;
+      place[i] = at - cell;
+      node[i] += stride * cell;
+      low = cell < low ? cell : low;
+      high = cell > high ? cell : high;
+    }
+    lower[k] = low;
+    upper[k] = high;
+    stride *= TILE;
+  }
+  if (bad)
+    return false;
+  for (unsigned k = 0; grow && k < DIMENSION; k++) {
+    if (lower[k] < w->lower[k])
+      w->lower[k] = lower[k];
+    if (upper[k] + NODES > w->upper[k])
+      w->upper[k] = upper[k] + NODES;
+  }
+  return true;
+}
+
+INLINE void NAMED(weights)(const struct work *w, size_t i, double scale,
+                           double weight[DIMENSION][NODES][GAMUT_LANES],
+                           double slope[DIMENSION][NODES][GAMUT_LANES])
+{
+  for (unsigned k = 0; k < DIMENSION; k++) {
+#if ORDER == 1
+    shape_linear(w->place[k] + i, scale, weight[k], slope[k]);
+#else
+    shape_quadratic(w->place[k] + i, scale, weight[k], slope[k]);
+#endif
+  }
+}
+
+#define WEIGHT(array, k, node, missing) (DIMENSION > (k) ? array[(k) < DIMENSION ? (k) : 0][node][l] : (missing))
+
+/* Value and gradient of a whole line at one point. */
+INLINE void NAMED(interpolate)(const double *tile, double weight[DIMENSION][NODES][GAMUT_LANES],
+                               double slope[DIMENSION][NODES][GAMUT_LANES], int l, bool gradient,
+                               struct line out[4])
+{
+  for (int k = 0; k < 4; k++)
+    line_clear(&out[k]);
+  for (int z = 0; z < NODES_Z; z++) {
+    struct line value, by_x, by_y;
+    line_clear(&value);
+    line_clear(&by_x);
+    line_clear(&by_y);
+    for (int y = 0; y < NODES_Y; y++) {
+      struct line row, row_by_x, node;
+      line_clear(&row);
+      line_clear(&row_by_x);
+      for (int x = 0; x < NODES; x++) {
+        line_read(&node, tile + LINE * (x + TILE * (y + TILE * z)));
+        line_add(&row, weight[0][x][l], &node);
+        if (gradient)
+          line_add(&row_by_x, slope[0][x][l], &node);
+      }
+      const double wy = WEIGHT(weight, 1, y, 1.0);
+      line_add(&value, wy, &row);
+      if (gradient) {
+        line_add(&by_x, wy, &row_by_x);
+        line_add(&by_y, WEIGHT(slope, 1, y, 0.0), &row);
+      }
+    }
+    const double wz = WEIGHT(weight, 2, z, 1.0);
+    line_add(&out[0], wz, &value);
+    if (gradient) {
+      line_add(&out[1], wz, &by_x);
+      line_add(&out[2], wz, &by_y);
+      line_add(&out[3], WEIGHT(slope, 2, z, 0.0), &value);
+    }
+  }
+}
+
+static void NAMED(gather)(struct work *w, size_t count)
+{
+  for (size_t i = 0; i < count; i += GAMUT_LANES) {
+    double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double out[GAMUT_LANES][LINE] __attribute__((aligned(64)));
+    NAMED(weights)(w, i, 1.0, weight, slope);
+    for (int l = 0; l < GAMUT_LANES; l++) {
+      struct line sum[4];
+      NAMED(interpolate)(w->tile + LINE * w->node[i + (size_t)l], weight, slope, l, false, sum);
+      line_write(&sum[0], out[l]);
+    }
+    for (int c = 0; c < 6; c++)
+      for (size_t l = 0; l < GAMUT_LANES; l++)
+        w->value[c][i + l] = out[l][c];
+  }
+}
+
+static void NAMED(gather_gradient)(struct work *w, size_t count, double inverse_cell,
+                                   double *const gradient[9])
+{
+  for (size_t i = 0; i < count; i += GAMUT_LANES) {
+    double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double out[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64)));
+    NAMED(weights)(w, i, inverse_cell, weight, slope);
+    for (int l = 0; l < GAMUT_LANES; l++) {
+      struct line sum[4];
+      NAMED(interpolate)(w->tile + LINE * w->node[i + (size_t)l], weight, slope, l, true, sum);
+      for (int k = 0; k <= DIMENSION; k++)
+        line_write(&sum[k], out[k][l]);
+    }
+    for (int c = 0; c < 6; c++)
+      for (size_t l = 0; l < GAMUT_LANES; l++)
+        w->value[c][i + l] = out[0][l][c];
+    for (int c = 0; c < DIMENSION; c++)
+      for (int k = 0; k < DIMENSION; k++)
+        for (size_t l = 0; l < GAMUT_LANES; l++)
+          gradient[3 * c + k][i + l] = out[k + 1][l][c];
+  }
+}
+
+/* Lines of eight points: what goes with N, and with its slopes by x, y and z. */
+INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
+                           double out[DIMENSION + 1][GAMUT_LANES][LINE])
+{
+  for (size_t l = 0; l < GAMUT_LANES; l++) {
+    const size_t j = i + l;
+    const double m = p->mass[j];
+    out[0][l][LINE_MASS] = m;
+    for (int c = 0; c < 3; c++)
+      out[0][l][LINE_MOMENTUM + c] = c < DIMENSION ? m * p->velocity[c][j] : 0.0;
+    for (int c = LINE_FORCE; c < LINE; c++)
+      out[0][l][c] = 0.0;
+    if (!force)
+      continue;
+    const double minus_volume = -m * p->volume_ratio[j] / p->density;
+    for (int c = 0; c < DIMENSION; c++)
+      out[0][l][LINE_FORCE + c] = p->force[c] == NULL ? 0.0 : p->force[c][j];
+    if (DIMENSION == 2 && p->axisymmetric)
+      out[0][l][LINE_FORCE] += minus_volume * p->stress[2][j] / p->position[0][j];
+    static const int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+    for (int k = 0; k < DIMENSION; k++) {
+      for (int c = 0; c < LINE; c++)
+        out[k + 1][l][c] = 0.0;
+      for (int c = 0; c < DIMENSION; c++)
+        out[k + 1][l][LINE_FORCE + c] = minus_volume * p->stress[component[c][k]][j];
+    }
+  }
+}
+
+INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LANES],
+                          double slope[DIMENSION][NODES][GAMUT_LANES], int l, bool force,
+                          double point[DIMENSION + 1][GAMUT_LANES][LINE])
+{
+  struct line plain, by_x, by_y, by_z;
+  line_read(&plain, point[0][l]);
+  if (force) {
+    line_read(&by_x, point[1][l]);
+    line_read(&by_y, point[DIMENSION > 1 ? 2 : 1][l]);
+    line_read(&by_z, point[DIMENSION > 2 ? 3 : 1][l]);
+  }
+  for (int z = 0; z < NODES_Z; z++) {
+    const double wz = WEIGHT(weight, 2, z, 1.0);
+    struct line plain_z, by_x_z, by_y_z;
+    line_scale(&plain_z, wz, &plain);
+    if (force) {
+      line_scale(&by_x_z, wz, &by_x);
+      line_scale(&by_y_z, wz, &by_y);
+      if (DIMENSION > 2)
+        line_add(&plain_z, WEIGHT(slope, 2, z, 0.0), &by_z);
+    }
+    for (int y = 0; y < NODES_Y; y++) {
+      const double wy = WEIGHT(weight, 1, y, 1.0);
+      struct line plain_y, by_x_y;
+      line_scale(&plain_y, wy, &plain_z);
+      if (force) {
+        line_scale(&by_x_y, wy, &by_x_z);
+        if (DIMENSION > 1)
+          line_add(&plain_y, WEIGHT(slope, 1, y, 0.0), &by_y_z);
+      }
+      for (int x = 0; x < NODES; x++) {
+        double *at = tile + LINE * (x + TILE * (y + TILE * z));
+        struct line node;
+        line_read(&node, at);
+        line_add(&node, weight[0][x][l], &plain_y);
+        if (force)
+          line_add(&node, slope[0][x][l], &by_x_y);
+        line_write(&node, at);
+      }
+    }
+  }
+}
+
+INLINE void NAMED(scatter_as)(struct work *w, const struct point_view *p, double inverse_cell,
+                              bool force)
+{
+  for (size_t i = 0; i < p->real; i += GAMUT_LANES) {
+    double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double point[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64)));
+    const size_t here = p->real - i < GAMUT_LANES ? p->real - i : GAMUT_LANES;
+    NAMED(weights)(w, i, inverse_cell, weight, slope);
+    NAMED(prepare)(p, i, force, point);
+    for (int l = 0; l < (int)here; l++)
+      NAMED(spread)(w->sums + LINE * w->node[i + (size_t)l], weight, slope, l, force, point);
+  }
+}
+
+static void NAMED(scatter)(struct work *w, const struct point_view *p, double inverse_cell)
+{
+  NAMED(scatter_as)(w, p, inverse_cell, true);
+}
+
+static void NAMED(scatter_momentum)(struct work *w, const struct point_view *p)
+{
+  NAMED(scatter_as)(w, p, 1.0, false);
+}
+
+#undef WEIGHT
+#undef TILE
+#undef SIDE
+#undef NODES_Z
+#undef NODES_Y
+#undef NODES
+#undef SUFFIX
+#undef ORDER
+#undef DIMENSION
