@@ -24,7 +24,7 @@ struct registry;
  * objects beside it or in .libs there. The build tree keeps the two apart: a file `plugins.path` in
  * the folder of the running executable has lines "YAMLDIR SODIR" (one blank, both relative to that
  * folder, e.g. "../plugins plugins"), and SODIR/KIND/NAME/NAME.so belongs to
- * YAMLDIR/KIND/NAME/NAME.yaml. The installed folder is the string GAMUT_PLUGIN_FOLDER that the build
+ * YAMLDIR/KIND/NAME/NAME.yaml. The installed folder is GAMUT_PLUGIN_FOLDER, which the build
  * defines. A folder with a plugins.path may also be named in --plugin-path or GAMUT_PLUGIN_PATH
  * (tests do). */
 struct registry_options {
