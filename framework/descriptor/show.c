@@ -85,8 +85,32 @@ static void put_range(FILE *file, const char *name, const struct range *range, c
     fprintf(file, "%s    %s: %s\n", indent, name, range_text(range, unit, text, sizeof text));
 }
 
-static void put_parameters(FILE *file, const struct parameter *parameter, size_t count,
-                           const char *indent)
+/* `d` is null where no set can give the parameters. */
+static bool stands_in_set(const struct descriptor *d, const char *name)
+{
+  for (size_t g = 0; d && g < d->givens; g++) {
+    for (size_t i = 0; i < d->given[g].names; i++)
+      if (strcmp(d->given[g].name[i], name) == 0)
+        return true;
+    for (size_t i = 0; i < d->given[g].derivations; i++)
+      if (strcmp(d->given[g].derived[i], name) == 0)
+        return true;
+  }
+  return false;
+}
+
+static void put_need(FILE *file, const struct descriptor *d, const struct parameter *parameter)
+{
+  if (stands_in_set(d, parameter->name))
+    fputs("; by one of the sets below", file);
+  else if (parameter->optional)
+    fputs("; optional", file);
+  else if (parameter->type != VALUE_GROUP)
+    fputs("; required", file);
+}
+
+static void put_parameters(FILE *file, const struct descriptor *d,
+                           const struct parameter *parameter, size_t count, const char *indent)
 {
   for (size_t i = 0; i < count; i++) {
     const struct parameter *p = &parameter[i];
@@ -99,7 +123,7 @@ static void put_parameters(FILE *file, const struct parameter *parameter, size_t
       fputs("; default ", file);
       put_value(file, p->standard);
     } else {
-      fputs(p->optional ? "; optional" : p->type == VALUE_GROUP ? "" : "; required", file);
+      put_need(file, d, p);
     }
     fputs(p->random ? "; may be random\n" : "\n", file);
     char deeper[64];
@@ -110,17 +134,17 @@ static void put_parameters(FILE *file, const struct parameter *parameter, size_t
     put_range(file, "fit", &p->fit, p->unit, indent);
     if (p->source)
       fprintf(file, "%ssource: %s\n", deeper, p->source);
-    put_parameters(file, p->member, p->members, deeper);
+    put_parameters(file, NULL, p->member, p->members, deeper);
   }
 }
 
-static void put_parameter_section(FILE *file, const char *title, const struct parameter *parameter,
-                                  size_t count)
+static void put_parameter_section(FILE *file, const char *title, const struct descriptor *d,
+                                  const struct parameter *parameter, size_t count)
 {
   if (count == 0)
     return;
   fprintf(file, "\n%s\n", title);
-  put_parameters(file, parameter, count, "  ");
+  put_parameters(file, d, parameter, count, "  ");
 }
 
 static void put_rules(FILE *file, const struct descriptor *d)
@@ -216,7 +240,7 @@ static void put_services(FILE *file, const struct descriptor *d)
     fprintf(file, "  %s in %s, per %s: %s\n", m->name, m->unit, place[m->at], m->doc);
     if (m->formula)
       fprintf(file, "    = %s\n", m->formula);
-    put_parameters(file, m->argument, m->arguments, "    ");
+    put_parameters(file, NULL, m->argument, m->arguments, "    ");
   }
 }
 
@@ -227,10 +251,11 @@ void descriptor_show(const struct descriptor *d, FILE *file)
   fprintf(file, "file: %s\ninterface: %s\n", d->file, d->digest);
   put_section(file, "formula", d->formula);
   put_section(file, "notes", d->notes);
-  put_parameter_section(file, "parameters", d->parameter, d->parameters);
-  put_parameter_section(file, "parameters of each material", d->material_parameter,
+  put_parameter_section(file, "parameters", d, d->parameter, d->parameters);
+  put_parameter_section(file, "parameters of each material", NULL, d->material_parameter,
                         d->material_parameters);
-  put_parameter_section(file, "parameters of each body", d->body_parameter, d->body_parameters);
+  put_parameter_section(file, "parameters of each body", NULL, d->body_parameter,
+                        d->body_parameters);
   put_rules(file, d);
   put_fields(file, d);
   put_tasks(file, d);
