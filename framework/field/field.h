@@ -63,6 +63,9 @@ struct point_set {
   int64_t *spare_id;
   size_t material;
 };
+/* The whole set of its public part, and the number of its material. */
+struct point_set *set_inside(const struct gamut_set *);
+size_t set_material(const struct gamut_set *);
 struct point_set *set_new(struct arena *, const char *body, size_t index, size_t material,
                           size_t points);
 void set_free(struct point_set *);

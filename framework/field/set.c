@@ -7,6 +7,16 @@
 enum { STAGGER = 40, STAGGERS = 12, SLACK = STAGGER * STAGGERS };
 #define PADDING UINT32_C(0x80000000)
 
+struct point_set *set_inside(const struct gamut_set *set)
+{
+  return (struct point_set *)(void *)((char *)(size_t)set - offsetof(struct point_set, open));
+}
+
+size_t set_material(const struct gamut_set *set)
+{
+  return set_inside(set)->material;
+}
+
 struct point_set *set_new(struct arena *arena, const char *body, size_t index, size_t material,
                           size_t points)
 {

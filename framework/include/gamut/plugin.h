@@ -100,8 +100,8 @@ struct gamut_plugin {
   gamut_status (*create)(struct gamut_run *, const struct gamut_values *, void **self);            \
   void (*destroy)(void *self);                                                                     \
   bool (*decline)(void *self, const struct gamut_values *, char *why, size_t size);                \
-  gamut_status (*measure)(void *self, const char *name, const struct gamut_values *arguments,      \
-                          double *value);
+  gamut_status (*measure)(void *self, const char *name, const struct gamut_body *body,             \
+                          const struct gamut_values *arguments, double *value);
 
 /* Exports NAME_LTX_gamut_plugin. A build may put further shared objects beside NAME.so, made from the
  * same source for a richer instruction set (NAME.v3.so, NAME.v4.so); each exports the same symbol and

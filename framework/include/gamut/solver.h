@@ -24,9 +24,10 @@
   /* optional: required by effects that ask for planes. Called while effects are created. */        \
   gamut_status (*plane)(void *self, const struct gamut_plane *,                                    \
                         const struct gamut_reaction **reaction);                                   \
-  /* optional, required if the descriptor declares measures without a formula. */                   \
-  gamut_status (*measure)(void *self, const char *name, const struct gamut_values *arguments,      \
-                          double *value);                                                          \
+  /* optional, required if the descriptor declares measures without a formula. `body` is null for    \
+   * measures `at: run`; `arguments` are those the descriptor declares. Called between steps. */      \
+  gamut_status (*measure)(void *self, const char *name, const struct gamut_body *body,             \
+                          const struct gamut_values *arguments, double *value);                    \
   /* optional. Writes the longest step the present state allows and what limits it, for explain. */ \
   gamut_status (*describe)(void *self, double *step, char *text, size_t size);
 

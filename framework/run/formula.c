@@ -1,0 +1,115 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "field/vocabulary.h"
+#include "run/inside.h"
+
+static const char density_name[] = "reference_density";
+
+/* Names of all components of point fields, in the order of their numbers, and the density. */
+static char **variable_names(const struct fields *fields, size_t count)
+{
+  char **name = calloc(count + 1, sizeof(*name));
+  for (size_t k = 0; name && k < count; k++) {
+    const struct field *field = fields_of_component(fields, k);
+    const char *component =
+        component_name(field->handle.components, (unsigned)(k - field->handle.first));
+    size_t size = strlen(field->name) + strlen(component) + 2;
+    name[k] = malloc(size);
+    if (name[k])
+      snprintf(name[k], size, "%s%s%s", field->name, *component ? "_" : "", component);
+  }
+  return name;
+}
+
+static void free_names(char **name, size_t count)
+{
+  for (size_t k = 0; name && k < count; k++)
+    free(name[k]);
+  free(name);
+}
+
+static gamut_status keep_used(struct formula *formula, size_t count, size_t density)
+{
+  formula->variable = calloc(count + 1, sizeof *formula->variable);
+  formula->position = calloc(count + 1, sizeof *formula->position);
+  formula->value = calloc(count + 1, sizeof *formula->value);
+  if (!formula->variable || !formula->position || !formula->value)
+    return GAMUT_INTERNAL;
+  for (size_t k = 0; k < count; k++)
+    if (expression_uses(formula->expression, k)) {
+      formula->position[formula->variables] = k;
+      formula->variable[formula->variables++] = k == density ? SIZE_MAX : k;
+    }
+  return GAMUT_OK;
+}
+
+gamut_status formula_new(struct gamut_run *run, const char *text, struct formula *formula)
+{
+  char why[256];
+  gamut_status status = GAMUT_OK;
+  size_t count = fields_components(run->fields), density = count;
+  const struct field *known = fields_find(run->fields, density_name);
+  char **name = variable_names(run->fields, count);
+  *formula = (struct formula){.plain = SIZE_MAX};
+  if (!name)
+    return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  if (known)
+    density = known->handle.first;
+  else
+    name[count++] = strdup(density_name);
+  formula->expression = expression_new(text, (const char *const *)name, count, why, sizeof why);
+  if (!formula->expression)
+    status = trace_fail(run->trace, GAMUT_PLUGIN,
+                        "the measure's formula '%s' cannot be worked out in this scene: %s", text,
+                        why);
+  else if (keep_used(formula, count, density) != GAMUT_OK)
+    status = trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  free_names(name, count);
+  return status;
+}
+
+gamut_status formula_plain(struct gamut_run *run, const char *name, struct formula *formula)
+{
+  unsigned component;
+  const struct field *field = fields_component(run->fields, name, &component);
+  *formula = (struct formula){.plain = SIZE_MAX};
+  if (!field || field->where != GAMUT_AT_POINT)
+    return trace_fail(run->trace, GAMUT_SCENE,
+                      "'%s' is wanted, but no plugin of this scene has such a field", name);
+  formula->plain = field->handle.first + component;
+  return GAMUT_OK;
+}
+
+double formula_value(struct formula *formula, const struct gamut_run *run,
+                     const struct point_set *set, size_t slot)
+{
+  if (!formula->expression)
+    return set->array[formula->plain] ? set->array[formula->plain][slot] : NAN;
+  for (size_t i = 0; i < formula->variables; i++) {
+    size_t k = formula->variable[i];
+    const double *array = k == SIZE_MAX ? NULL : set->array[k];
+    formula->value[formula->position[i]] =
+        k == SIZE_MAX ? run->scene->material[set->material].density : array ? array[slot] : NAN;
+  }
+  return expression_value(formula->expression, formula->value);
+}
+
+void formula_want(const struct formula *formula, struct gamut_run *run, const char *why)
+{
+  if (!formula->expression && formula->plain != SIZE_MAX)
+    schedule_want(run->schedule, fields_of_component(run->fields, formula->plain), why);
+  for (size_t i = 0; i < formula->variables; i++)
+    if (formula->variable[i] != SIZE_MAX)
+      schedule_want(run->schedule, fields_of_component(run->fields, formula->variable[i]), why);
+}
+
+void formula_free(struct formula *formula)
+{
+  expression_free(formula->expression);
+  free(formula->variable);
+  free(formula->position);
+  free(formula->value);
+  *formula = (struct formula){.plain = SIZE_MAX};
+}

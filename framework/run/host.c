@@ -1,0 +1,259 @@
+#include <stdarg.h>
+
+#include "field/vocabulary.h"
+#include "run/host.h"
+
+static const char *owner_of(const struct gamut_run *run)
+{
+  return run->creating ? run->creating->label : "solver";
+}
+
+static gamut_status host_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
+{
+  char text[1024];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return trace_fail(run->trace, status, "%s", text);
+}
+
+static gamut_status host_fail_at(struct gamut_run *run, const struct gamut_values *values,
+                                 const char *path, const char *expected, const char *format, ...)
+{
+  char text[1024], where[512];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  const struct value *value = values_find(values, path);
+  const struct tree *node = value && value->node ? value->node : values->node;
+  snprintf(where, sizeof where, "%s%s%s", values->path ? values->path : "",
+           values->path && *values->path ? "." : "", path);
+  return trace_fail_at(run->trace, GAMUT_SCENE, node ? &node->place : NULL, where, expected, "%s",
+                       text);
+}
+
+static void host_warn(struct gamut_run *run, const char *format, ...)
+{
+  char text[1024];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  trace_warn_at(run->trace, NULL, NULL, NULL, "%s", text);
+}
+
+static size_t host_bodies(const struct gamut_run *run)
+{
+  return run->scene->bodies;
+}
+
+static const struct gamut_body *host_body(const struct gamut_run *run, size_t index)
+{
+  return &run->scene->body[index];
+}
+
+static const char *host_body_name(const struct gamut_body *body)
+{
+  return body->name;
+}
+
+static const struct gamut_values *host_body_values(const struct gamut_body *body)
+{
+  return body->solver_values;
+}
+
+static bool host_body_bounds(const struct gamut_body *body, double lower[3], double upper[3])
+{
+  if (body->shape.kind == SHAPE_NONE)
+    return false;
+  shape_bounds(&body->shape, lower, upper);
+  return true;
+}
+
+static bool host_body_contains(const struct gamut_body *body, const double x[3])
+{
+  return body->shape.kind != SHAPE_NONE && shape_contains(&body->shape, x);
+}
+
+static void host_body_velocity(const struct gamut_body *body, const double x[3], double v[3])
+{
+  for (int k = 0; k < 3; k++)
+    v[k] = body->velocity_expression[k] ? expression_value(body->velocity_expression[k], x)
+                                        : body->velocity[k];
+}
+
+static double host_body_density(const struct gamut_run *run, const struct gamut_body *body)
+{
+  return run->scene->material[body->material].density;
+}
+
+static gamut_status host_points(struct gamut_run *run, const struct gamut_body *body,
+                                size_t points, struct gamut_set **set)
+{
+  if (run->set[body->index])
+    return trace_fail(run->trace, GAMUT_PLUGIN, "the solver makes points of body '%s' twice",
+                      body->name);
+  struct point_set *made =
+      set_new(run->arena, body->name, body->index, body->material, points);
+  if (!made)
+    return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  run->set[body->index] = made;
+  *set = &made->open;
+  return GAMUT_OK;
+}
+
+static gamut_status host_field(struct gamut_run *run, const char *name, struct gamut_field *handle)
+{
+  const struct vocable *vocable = vocabulary_find(name);
+  struct field *field = fields_find(run->fields, name);
+  if (!field && vocable)
+    field = fields_add(run->fields, vocable->name, vocable->where, vocable->components,
+                       vocable->unit, vocable->meaning, run->trace);
+  if (!field)
+    return trace_fail(run->trace, GAMUT_PLUGIN, "%s asks for the field '%s', which nobody declares",
+                      owner_of(run), name);
+  *handle = field->handle;
+  return GAMUT_OK;
+}
+
+static double *host_stored(const struct gamut_set *set, struct gamut_field field,
+                           unsigned component)
+{
+  return set_stored(set_inside(set), field, component);
+}
+
+static gamut_status host_arrange(struct gamut_run *run, struct gamut_set *set,
+                                 const uint32_t *source, size_t slots, const size_t *first,
+                                 size_t blocks)
+{
+  return set_arrange(set_inside(set), source, slots, first, blocks, run->trace);
+}
+
+static gamut_status host_start_material(struct gamut_run *run, struct gamut_set *open)
+{
+  gamut_status status;
+  struct point_set *set = set_inside(open);
+  struct bound_material *material = run->material[set->material];
+  struct gamut_chunk chunk = {.set = open};
+  TRY(material_initial(material, set, &run->scene->body[open->index], run->trace));
+  for (size_t slot = 0; slot < open->slots; slot += run->chunk) {
+    size_t count = open->slots - slot < run->chunk ? open->slots - slot : run->chunk;
+    scratch_bind(run->scratch[0], set, run->start_source, run->uniform, slot, count, &chunk);
+    material_start(material, &chunk);
+    material_tally(material, &chunk);
+    scratch_commit(run->scratch[0], run->start_source, &chunk);
+  }
+done:
+  return status;
+}
+
+static gamut_status host_update_material(struct gamut_run *run, const struct gamut_chunk *chunk)
+{
+  material_update(run->material[set_inside(chunk->set)->material], chunk);
+  return GAMUT_OK;
+}
+
+static gamut_status host_task(struct gamut_run *run, const struct gamut_task *task)
+{
+  return run_add_task(run, owner_of(run), task, SIZE_MAX,
+                      run->creating ? run->creating->effect->on_body : NULL);
+}
+
+static void host_set_uniform(struct gamut_run *run, struct gamut_field field, double value)
+{
+  double *array = run->uniform[field.first];
+  for (size_t i = 0; array && i < run->chunk; i++)
+    array[i] = value;
+}
+
+static void *host_allocate(struct gamut_run *run, const char *label, size_t bytes)
+{
+  void *memory = arena_take(run->arena, label, bytes);
+  if (!memory)
+    trace_fail(run->trace, GAMUT_INTERNAL, "no memory for %zu bytes of %s", bytes, label);
+  return memory;
+}
+
+static void host_release(struct gamut_run *run, void *memory)
+{
+  arena_give(run->arena, memory);
+}
+
+static gamut_status host_plane(struct gamut_run *run, const struct gamut_plane *plane,
+                               const struct gamut_reaction **reaction)
+{
+  if (!run->solver->plane)
+    return trace_fail(run->trace, GAMUT_SCENE, "%s needs planes, which %s does not offer",
+                      owner_of(run), run->scene->solver.descriptor->id);
+  return run->solver->plane(run->solver_self, plane, reaction);
+}
+
+static gamut_status host_ledger(struct gamut_run *run, const char *account, const char *name,
+                                const char *unit, enum gamut_ledger_role role, double **value)
+{
+  return ledger_open(run, account, name, unit, role, value);
+}
+
+static double host_time(const struct gamut_run *run)
+{
+  return run->time;
+}
+
+static double host_time_step(const struct gamut_run *run)
+{
+  return run->step;
+}
+
+static uint64_t host_step(const struct gamut_run *run)
+{
+  return run->steps;
+}
+
+static int host_threads(const struct gamut_run *run)
+{
+  return run->threads;
+}
+
+static size_t host_chunk(const struct gamut_run *run)
+{
+  return run->chunk;
+}
+
+const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
+                                    .fail = host_fail,
+                                    .fail_at = host_fail_at,
+                                    .warn = host_warn,
+                                    .given = host_given,
+                                    .real = host_real,
+                                    .integer = host_integer,
+                                    .boolean = host_boolean,
+                                    .text = host_text,
+                                    .vector = host_vector,
+                                    .table = host_table,
+                                    .bodies = host_bodies,
+                                    .body = host_body,
+                                    .body_name = host_body_name,
+                                    .body_values = host_body_values,
+                                    .body_bounds = host_body_bounds,
+                                    .body_contains = host_body_contains,
+                                    .body_velocity = host_body_velocity,
+                                    .body_density = host_body_density,
+                                    .points = host_points,
+                                    .field = host_field,
+                                    .stored = host_stored,
+                                    .arrange = host_arrange,
+                                    .start_material = host_start_material,
+                                    .update_material = host_update_material,
+                                    .task = host_task,
+                                    .set_uniform = host_set_uniform,
+                                    .allocate = host_allocate,
+                                    .release = host_release,
+                                    .plane = host_plane,
+                                    .ledger = host_ledger,
+                                    .time = host_time,
+                                    .time_step = host_time_step,
+                                    .step = host_step,
+                                    .threads = host_threads,
+                                    .chunk = host_chunk};

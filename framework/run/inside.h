@@ -1,0 +1,163 @@
+/* The inside of a run, shared by the files of this room. */
+#ifndef GAMUT_RUN_INSIDE_H
+#define GAMUT_RUN_INSIDE_H
+
+#include <gamut/plugin.h>
+
+#include "material/material.h"
+#include "run/run.h"
+
+/* Operations of a solver and of an effect as the core sees them; see GAMUT_SOLVER_OPS. */
+struct solver_operations {
+  size_t size;
+  GAMUT_SOLVER_OPS(void)
+};
+struct effect_operations {
+  size_t size;
+  GAMUT_EFFECT_OPS(void)
+};
+
+/* An effect that is on. */
+struct running_effect {
+  const struct effect *effect;
+  const struct effect_operations *ops;
+  void *self;
+  bool created;
+  struct kernel **kernel; /* one a material; null if it has no kernels */
+  struct bound_effect *bound;
+  struct effect_job { struct running_effect *owner; size_t task; } *job; /* one a task */
+  char label[120]; /* "effect heat" */
+};
+
+/* A task that updates materials: the core's own, or a solver's that iterates on it. */
+struct material_job {
+  struct gamut_run *run;
+  gamut_status (*inner)(void *self, const struct gamut_chunk *); /* null: the core's own */
+  void *self;
+};
+
+/* An expression over the components of fields at one point. */
+struct formula {
+  struct expression *expression; /* null: the plain component `plain` */
+  size_t plain;
+  size_t *variable, variables;   /* components that the expression uses; SIZE_MAX: density */
+  size_t *position;              /* their places in `value` */
+  double *value;
+};
+
+/* What a quantity is taken from. */
+struct probe {
+  const struct quantity *quantity;
+  struct history *history;
+  struct formula formula; /* for points */
+  struct running_effect *effect; /* provider, or null: the solver */
+  int64_t id;             /* the point that is followed */
+  size_t slot;            /* where it was last */
+  double distance;        /* of the point from the place asked for */
+};
+
+/* A field of the frames. One formula a material: materials may differ in elasticity. */
+struct frame_column {
+  const char *name, *unit, *meaning;
+  unsigned components;
+  const struct field *field;   /* plain; or */
+  struct formula *formula;     /* one a material */
+};
+
+struct gamut_run {
+  struct gamut_run_head head; /* first, see <gamut/run.h> */
+  struct scene *scene;
+  struct registry *registry;
+  struct run_options options;
+  struct trace *trace;
+  struct arena *arena;
+  struct fields *fields;
+  struct schedule *schedule;
+  struct store *store;
+  int threads;
+  size_t chunk;
+
+  struct bound_material **material; /* one a scene material; null where no body uses it */
+  struct point_set **set;           /* one a body */
+  const struct solver_operations *solver;
+  void *solver_self;
+  struct running_effect *effect;
+  size_t effects;
+  struct running_effect *creating;  /* the effect whose create runs, for messages */
+  struct material_job **job;
+  size_t jobs;
+  struct lane_scratch **scratch;
+  double **uniform;                 /* one a component */
+  unsigned char *start_source;      /* where a chunk's tables lead while a run starts */
+
+  struct ledger_line *ledger;
+  size_t lines, line_capacity;
+  double **line_value;              /* what plugins write to */
+
+  struct probe *probe;
+  size_t probes;
+  struct history **history;
+  struct frame_column *column;
+  size_t columns;
+
+  double time, step, end;
+  uint64_t steps;
+  double next_frame;
+  size_t frame;
+  double wall, cpu;
+  bool started;
+};
+
+extern const struct gamut_host run_host;
+
+
+
+/* create.c */
+gamut_status run_add_task(struct gamut_run *, const char *owner, const struct gamut_task *,
+                          size_t only_set, const bool *on_set);
+
+/* effects.c */
+gamut_status effects_create(struct gamut_run *);
+void effects_free(struct gamut_run *);
+gamut_status effects_resolve(struct gamut_run *);
+
+/* formula.c */
+gamut_status formula_new(struct gamut_run *, const char *text, struct formula *);
+gamut_status formula_plain(struct gamut_run *, const char *component, struct formula *);
+double formula_value(struct formula *, const struct gamut_run *, const struct point_set *,
+                     size_t slot);
+void formula_free(struct formula *);
+/* Tells the scheduler which fields it reads. */
+void formula_want(const struct formula *, struct gamut_run *, const char *why);
+
+/* observe.c */
+gamut_status observe_create(struct gamut_run *);
+gamut_status observe_start(struct gamut_run *); /* after the solver has started */
+/* Whether a sample falls into the step from the present time; tells the values of its beginning. */
+gamut_status observe_before(struct gamut_run *, double step, bool *due);
+gamut_status observe_after(struct gamut_run *, bool due, bool final);
+void observe_free(struct gamut_run *);
+
+/* frames.c */
+gamut_status frames_create(struct gamut_run *);
+gamut_status frames_write(struct gamut_run *);
+/* Writes a frame if one is due by the present time. */
+gamut_status frames_due(struct gamut_run *);
+void frames_free(struct gamut_run *);
+
+/* ledger.c */
+gamut_status ledger_open(struct gamut_run *, const char *account, const char *name,
+                         const char *unit, enum gamut_ledger_role, double **value);
+void ledger_start(struct gamut_run *);
+gamut_status ledger_check(struct gamut_run *);
+void ledger_free(struct gamut_run *);
+
+/* march.c */
+gamut_status march_start(struct gamut_run *);
+/* One step; false in *more at the end of the run. */
+gamut_status march_step(struct gamut_run *, bool *more);
+
+/* stop.c */
+gamut_status stop_check(struct gamut_run *);
+
+#endif

@@ -1,0 +1,180 @@
+#include <math.h>
+#include <time.h>
+
+#include "field/vocabulary.h"
+#include "run/inside.h"
+
+/* How often the progress is told, in wall seconds. */
+static const double telling = 0.1;
+
+static double clock_now(clockid_t clock)
+{
+  struct timespec now;
+  clock_gettime(clock, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void set_uniform_field(struct gamut_run *run, const char *name, double value)
+{
+  const struct field *field = fields_find(run->fields, name);
+  if (field)
+    run_host.set_uniform(run, field->handle, value);
+}
+
+gamut_status march_start(struct gamut_run *run)
+{
+  gamut_status status = GAMUT_OK;
+  if (run->started)
+    return GAMUT_OK;
+  run->started = true;
+  set_uniform_field(run, "time_step", 0.0);
+  TRY(run->solver->start(run->solver_self));
+  TRY(stop_check(run));
+  ledger_start(run);
+  TRY(observe_start(run));
+done:
+  return status;
+}
+
+static gamut_status choose_step(struct gamut_run *run, double *step)
+{
+  gamut_status status;
+  double left = run->end - run->time;
+  *step = run->end > 0.0 ? left : INFINITY;
+  TRY(run->solver->next(run->solver_self, step));
+  /* A sliver of a last step would be all rounding. */
+  if (run->end > 0.0 && *step > 0.0 && left - *step < 1e-9 * *step)
+    *step = left;
+  if (!(*step >= 0.0) || (run->end > 0.0 && *step > left))
+    status = trace_fail(run->trace, GAMUT_NUMERICS,
+                        "the solver asks for a step of %g s at t = %g s", *step, run->time);
+done:
+  return status;
+}
+
+gamut_status march_step(struct gamut_run *run, bool *more)
+{
+  gamut_status status;
+  bool due;
+  double step;
+  *more = !(run->end > 0.0) || run->time < run->end;
+  if (!*more)
+    return GAMUT_OK;
+  TRY(choose_step(run, &step));
+  *more = step > 0.0;
+  if (!*more)
+    return GAMUT_OK;
+  run->step = step;
+  TRY(observe_before(run, step, &due));
+  set_uniform_field(run, "time_step", step);
+  set_uniform_field(run, "time", run->time);
+  const struct march march = {run->set,     run->scene->bodies, run->scratch,
+                              run->uniform, run->threads,       run->chunk};
+  TRY(schedule_step(run->schedule, &march));
+  run->time = run->end > 0.0 && step >= run->end - run->time ? run->end : run->time + step;
+  run->steps++;
+  TRY(stop_check(run));
+  if (run->solver->after)
+    TRY(run->solver->after(run->solver_self));
+  TRY(ledger_check(run));
+  TRY(observe_after(run, due, false));
+  TRY(frames_due(run));
+done:
+  return status;
+}
+
+static uint64_t count_points(const struct gamut_run *run)
+{
+  uint64_t points = 0;
+  for (size_t s = 0; s < run->scene->bodies; s++)
+    points += run->set[s]->open.points;
+  return points;
+}
+
+static void tell_progress(const struct gamut_run *run, double since)
+{
+  if (!run->options.progress)
+    return;
+  double done = run->end > 0.0 ? run->time / run->end : 0.0;
+  double rate = since > 0.0 ? (double)run->steps * (double)count_points(run) / since : 0.0;
+  run->options.progress(run->options.progress_self, done, run->time, run->steps, rate);
+}
+
+static gamut_status march_all(struct gamut_run *run)
+{
+  gamut_status status = GAMUT_OK;
+  double begun = clock_now(CLOCK_MONOTONIC), told = begun;
+  for (bool more = true; more;) {
+    TRY(march_step(run, &more));
+    double now = clock_now(CLOCK_MONOTONIC);
+    if (now - told > telling || !more) {
+      told = now;
+      tell_progress(run, now - begun);
+    }
+    if (run->options.stop && *run->options.stop) {
+      status = GAMUT_STOPPED;
+      goto done;
+    }
+  }
+done:
+  return status;
+}
+
+gamut_status run_march(struct gamut_run *run, struct trace *trace)
+{
+  gamut_status status, written;
+  double wall = clock_now(CLOCK_MONOTONIC), cpu = clock_now(CLOCK_PROCESS_CPUTIME_ID);
+  run->trace = trace;
+  TRY(march_start(run));
+  TRY(frames_write(run));
+  TRY(march_all(run));
+done:
+  run->wall = clock_now(CLOCK_MONOTONIC) - wall;
+  run->cpu = clock_now(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+  /* The last state is worth most when something went wrong. */
+  written = run->started ? frames_write(run) : GAMUT_OK;
+  if (status == GAMUT_OK || status == GAMUT_STOPPED) {
+    gamut_status told = observe_after(run, false, true);
+    if (status == GAMUT_OK)
+      status = told != GAMUT_OK ? told : written;
+  }
+  return status;
+}
+
+struct run_cost run_cost_of(const struct gamut_run *run)
+{
+  struct run_cost cost = {.points = count_points(run),
+                          .steps = run->steps,
+                          .wall = run->wall,
+                          .cpu = run->cpu,
+                          .bytes = arena_bytes(run->arena),
+                          .peak = arena_peak(run->arena)};
+  cost.bytes_per_point = cost.points ? (double)cost.bytes / (double)cost.points : 0.0;
+  return cost;
+}
+
+const struct schedule *run_schedule(const struct gamut_run *run)
+{
+  return run->schedule;
+}
+
+const struct fields *run_fields(const struct gamut_run *run)
+{
+  return run->fields;
+}
+
+const struct arena *run_arena(const struct gamut_run *run)
+{
+  return run->arena;
+}
+
+struct history *const *run_histories(const struct gamut_run *run, size_t *count)
+{
+  *count = run->probes;
+  return run->history;
+}
+
+double run_time(const struct gamut_run *run)
+{
+  return run->time;
+}

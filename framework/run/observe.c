@@ -1,0 +1,212 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "run/inside.h"
+
+static struct running_effect *effect_called(struct gamut_run *run, const char *name)
+{
+  for (size_t i = 0; i < run->effects; i++)
+    if (strcmp(run->effect[i].effect->instance.name, name) == 0)
+      return &run->effect[i];
+  return NULL;
+}
+
+static bool from_points(const struct quantity *quantity)
+{
+  return quantity->field || (quantity->measure && quantity->measure->formula);
+}
+
+static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
+                                 const struct quantity *quantity)
+{
+  gamut_status status = GAMUT_OK;
+  char why[160];
+  const struct descriptor *solver = run->scene->solver.descriptor;
+  probe->quantity = quantity;
+  probe->formula.plain = SIZE_MAX;
+  probe->id = -1;
+  probe->history = history_new(quantity, run->end);
+  if (!probe->history)
+    return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  if (solver->axis) {
+    probe->history->axis = solver->axis;
+    probe->history->axis_unit = solver->axis_unit;
+  }
+  if (from_points(quantity)) {
+    if (quantity->field)
+      TRY(formula_plain(run, quantity->field, &probe->formula));
+    else
+      TRY(formula_new(run, quantity->measure->formula, &probe->formula));
+    snprintf(why, sizeof why, "quantity %s", quantity->name);
+    formula_want(&probe->formula, run, why);
+  } else if (quantity->effect) {
+    probe->effect = effect_called(run, quantity->effect);
+    if (!probe->effect)
+      status = trace_fail_at(run->trace, GAMUT_SCENE,
+                             quantity->node ? &quantity->node->place : NULL, quantity->name,
+                             "turn the effect on or leave the quantity out",
+                             "quantity '%s' is measured by the effect '%s', which is off",
+                             quantity->name, quantity->effect);
+  }
+done:
+  return status;
+}
+
+gamut_status observe_create(struct gamut_run *run)
+{
+  gamut_status status = GAMUT_OK;
+  size_t count = run->scene->quantities;
+  run->probe = calloc(count + 1, sizeof *run->probe);
+  run->history = calloc(count + 1, sizeof(*run->history));
+  if (!run->probe || !run->history)
+    return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t i = 0; i < count; i++) {
+    run->probes = i + 1;
+    TRY(create_probe(run, &run->probe[i], &run->scene->quantity[i]));
+    run->history[i] = run->probe[i].history;
+  }
+done:
+  return status;
+}
+
+void observe_free(struct gamut_run *run)
+{
+  for (size_t i = 0; i < run->probes; i++) {
+    history_free(run->probe[i].history);
+    formula_free(&run->probe[i].formula);
+  }
+  free(run->probe);
+  free(run->history);
+}
+
+static double distance_squared(const struct gamut_run *run, const struct point_set *set,
+                               size_t slot, const double point[3])
+{
+  const struct field *position = fields_find(run->fields, "position");
+  double sum = 0.0;
+  for (unsigned k = 0; position && k < 3; k++) {
+    const double *x = set_stored(set, position->handle, k);
+    double d = x ? x[slot] - point[k] : 0.0;
+    sum += d * d;
+  }
+  return sum;
+}
+
+/* The body's point nearest to the place at the start; of equally near ones the lowest id. */
+static void find_point(const struct gamut_run *run, struct probe *probe)
+{
+  const struct point_set *set = run->set[probe->quantity->body];
+  double best = INFINITY;
+  for (size_t slot = 0; slot < set->open.slots; slot++) {
+    if (set->id[slot] < 0)
+      continue;
+    double d = distance_squared(run, set, slot, probe->quantity->point);
+    if (d < best || (d == best && set->id[slot] < probe->id)) {
+      best = d;
+      probe->id = set->id[slot];
+      probe->slot = slot;
+    }
+  }
+  probe->distance = sqrt(best);
+}
+
+static double at_material_point(const struct gamut_run *run, struct probe *probe)
+{
+  const struct point_set *set = run->set[probe->quantity->body];
+  if (probe->slot >= set->open.slots || set->id[probe->slot] != probe->id)
+    probe->slot = set_find(set, probe->id);
+  return probe->slot == SIZE_MAX ? NAN : formula_value(&probe->formula, run, set, probe->slot);
+}
+
+/* Mean over the body's points within one cell of the place. */
+static double at_place(const struct gamut_run *run, struct probe *probe)
+{
+  const struct point_set *set = run->set[probe->quantity->body];
+  const struct field *cell = fields_find(run->fields, "cell_size");
+  double reach = cell && run->uniform[cell->handle.first] ? *run->uniform[cell->handle.first] : 0.0;
+  double sum = 0.0, count = 0.0;
+  for (size_t slot = 0; slot < set->open.slots; slot++)
+    if (set->id[slot] >= 0 &&
+        distance_squared(run, set, slot, probe->quantity->point) <= reach * reach) {
+      sum += formula_value(&probe->formula, run, set, slot);
+      count += 1.0;
+    }
+  return count > 0.0 ? sum / count : NAN;
+}
+
+static gamut_status probe_value(struct gamut_run *run, struct probe *probe, double *value)
+{
+  const struct quantity *q = probe->quantity;
+  if (from_points(q)) {
+    *value = q->follow_space ? at_place(run, probe) : at_material_point(run, probe);
+    return GAMUT_OK;
+  }
+  const struct gamut_body *body = q->body >= 0 ? &run->scene->body[q->body] : NULL;
+  if (probe->effect && probe->effect->ops->measure)
+    return probe->effect->ops->measure(probe->effect->self, q->measure->name, body, q->arguments,
+                                       value);
+  if (!probe->effect && run->solver->measure)
+    return run->solver->measure(run->solver_self, q->measure->name, body, q->arguments, value);
+  return trace_fail(run->trace, GAMUT_PLUGIN,
+                    "the measure '%s' is declared, but its plugin has no operation `measure`",
+                    q->measure->name);
+}
+
+static gamut_status tell(struct gamut_run *run, struct probe *probe, bool final)
+{
+  gamut_status status;
+  double value = NAN;
+  TRY(probe_value(run, probe, &value));
+  history_tell(probe->history, run->time, value, final);
+done:
+  return status;
+}
+
+gamut_status observe_start(struct gamut_run *run)
+{
+  gamut_status status = GAMUT_OK;
+  for (size_t i = 0; i < run->probes; i++) {
+    if (from_points(run->probe[i].quantity) && run->probe[i].quantity->has_point)
+      find_point(run, &run->probe[i]);
+    TRY(tell(run, &run->probe[i], false));
+  }
+done:
+  return status;
+}
+
+/* Samples lie at multiples of `every`; rounding may put one a hair beyond the step's end. */
+static bool sample_within(const struct history *history, double until)
+{
+  if (!(history->every > 0.0))
+    return false;
+  return until * (1.0 + 1e-9) >= (double)history->count * history->every;
+}
+
+gamut_status observe_before(struct gamut_run *run, double step, bool *due)
+{
+  gamut_status status = GAMUT_OK;
+  *due = false;
+  for (size_t i = 0; i < run->probes; i++) {
+    struct history *history = run->probe[i].history;
+    if (!sample_within(history, run->time + step))
+      continue;
+    *due = true;
+    if (!history->has_last || history->last_time < run->time)
+      TRY(tell(run, &run->probe[i], false));
+  }
+done:
+  return status;
+}
+
+gamut_status observe_after(struct gamut_run *run, bool due, bool final)
+{
+  gamut_status status = GAMUT_OK;
+  if (!due && !final)
+    return GAMUT_OK;
+  for (size_t i = 0; i < run->probes; i++)
+    if (final || sample_within(run->probe[i].history, run->time))
+      TRY(tell(run, &run->probe[i], final));
+done:
+  return status;
+}
