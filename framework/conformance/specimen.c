@@ -191,14 +191,14 @@ done:
 gamut_status specimen_open(struct specimen *specimen, struct registry *registry, size_t count,
                            double density, struct trace *trace)
 {
-  const struct instance instance = {.name = kind_name(specimen->descriptor->kind),
-                                    .descriptor = specimen->descriptor,
-                                    .values = specimen->values,
-                                    .node = specimen->tree};
+  specimen->instance = (struct instance){.name = kind_name(specimen->descriptor->kind),
+                                         .descriptor = specimen->descriptor,
+                                         .values = specimen->values,
+                                         .node = specimen->tree};
   specimen->arena = arena_new();
   if (!specimen->arena)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
-  return kernel_new(&instance, registry, specimen->arena, count, specimen->extra, density, trace,
+  return kernel_new(&specimen->instance, registry, specimen->arena, count, specimen->extra, density, trace,
                     &specimen->kernel);
 }
 

@@ -36,6 +36,7 @@ struct specimen {
   struct tree *tree;     /* what the values were read from */
   struct values *values; /* of its parameters */
   struct values *extra;  /* of its material parameters; null if it has none */
+  struct instance instance; /* the kernel keeps it: a specimen that was opened stays where it is */
   struct arena *arena;
   struct kernel *kernel; /* null until specimen_open */
 };

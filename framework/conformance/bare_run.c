@@ -1,0 +1,121 @@
+#include "conformance/bare_run.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include "run/host.h"
+
+static struct bare_run *bare(struct gamut_run *run)
+{
+  return (struct bare_run *)(void *)run;
+}
+
+static gamut_status bare_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
+{
+  char text[1024];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(text, sizeof text, format, list);
+  va_end(list);
+  return trace_fail(bare(run)->trace, status, "%s", text);
+}
+
+static gamut_status bare_fail_at(struct gamut_run *run, const struct gamut_values *values,
+                                 const char *path, const char *expected, const char *format, ...)
+{
+  char text[1024];
+  va_list list;
+  (void)values;
+  va_start(list, format);
+  vsnprintf(text, sizeof text, format, list);
+  va_end(list);
+  return trace_fail_at(bare(run)->trace, GAMUT_SCENE, NULL, path, expected, "%s", text);
+}
+
+static void bare_warn(struct gamut_run *run, const char *format, ...)
+{
+  char text[1024];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(text, sizeof text, format, list);
+  va_end(list);
+  trace_note(bare(run)->trace, "%s", text);
+}
+
+static void *bare_allocate(struct gamut_run *run, const char *label, size_t bytes)
+{
+  return arena_take(bare(run)->arena, label, bytes);
+}
+
+static void bare_release(struct gamut_run *run, void *memory)
+{
+  arena_give(bare(run)->arena, memory);
+}
+
+static int bare_threads(const struct gamut_run *run)
+{
+  (void)run;
+  return 1;
+}
+
+static const struct gamut_host bare_host = {
+    .size = sizeof(struct gamut_host),
+    .fail = bare_fail,
+    .fail_at = bare_fail_at,
+    .warn = bare_warn,
+    .given = host_given,
+    .real = host_real,
+    .integer = host_integer,
+    .boolean = host_boolean,
+    .text = host_text,
+    .vector = host_vector,
+    .table = host_table,
+    .allocate = bare_allocate,
+    .release = bare_release,
+    .threads = bare_threads,
+};
+
+static void give_host(struct values *values)
+{
+  values->host = &bare_host;
+  for (size_t i = 0; i < values->count; i++)
+    if (values->value[i].group)
+      give_host(values->value[i].group);
+}
+
+bool bare_run_new(struct bare_run *run, struct proof *proof)
+{
+  gamut_status status = GAMUT_OK;
+  const struct gamut_plugin *plugin;
+  *run = (struct bare_run){.head = {&bare_host}, .trace = trace_new(), .arena = arena_new()};
+  TRY(specimen_values(&run->specimen, proof->descriptor, &proof->base, "base", proof->units,
+                      run->trace));
+  TRY(registry_open(proof->registry, proof->descriptor, run->trace, &plugin));
+  give_host(run->specimen.values);
+  run->ops = plugin->ops;
+done:
+  if (status != GAMUT_OK) {
+    check_that(&proof->checks, false, "the plugin can be given its parameters");
+    bare_run_say(run, &proof->checks);
+  }
+  return status == GAMUT_OK;
+}
+
+void bare_run_free(struct bare_run *run)
+{
+  specimen_close(&run->specimen);
+  arena_free(run->arena);
+  trace_free(run->trace);
+}
+
+struct gamut_run *bare_run_handle(struct bare_run *run)
+{
+  return (struct gamut_run *)(void *)run;
+}
+
+void bare_run_say(struct bare_run *run, struct checks *checks)
+{
+  char *text = trace_text(run->trace);
+  check_say(checks, "%s", text ? text : "");
+  free(text);
+}

@@ -1,0 +1,24 @@
+/* As much of a run as a plugin needs that works without bodies: estimators and random fields. */
+#ifndef GAMUT_BARE_RUN_H
+#define GAMUT_BARE_RUN_H
+
+#include <gamut/plugin.h>
+
+#include "conformance/proof.h"
+
+struct bare_run {
+  struct gamut_run_head head; /* first */
+  struct trace *trace;
+  struct arena *arena;
+  struct specimen specimen; /* the plugin's values */
+  const void *ops;
+};
+
+/* Makes it with the base values and opens the plugin. On failure a check fails with the reason. */
+bool bare_run_new(struct bare_run *, struct proof *);
+void bare_run_free(struct bare_run *);
+struct gamut_run *bare_run_handle(struct bare_run *);
+/* Prints what the plugin said, if anything. */
+void bare_run_say(struct bare_run *, struct checks *);
+
+#endif

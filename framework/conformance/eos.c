@@ -1,0 +1,42 @@
+/* eos: pressure and its slopes, a real sound speed. */
+#include <math.h>
+
+#include "conformance/suite.h"
+
+/* Points that are fine must have a sound speed above zero. */
+static void prove_sound_speed(struct proof *proof, struct block *block, kernel_function function)
+{
+  size_t bad = 0, fine = 0, slot = slot_named(proof, SLOT_OUTPUT, "sound_speed");
+  check_begin(&proof->checks, "sound speed");
+  if (!check_that(&proof->checks, slot != SIZE_MAX && slot_named(proof, SLOT_OUTPUT, "pressure") !=
+                                                          SIZE_MAX,
+                  "pressure and sound_speed are among the outputs"))
+    return;
+  for (size_t round = 0; round < 3; round++) {
+    block_draw(block, round);
+    block_mark(block);
+    bench_call(block->bench, function, BLOCK_POINTS);
+    for (size_t i = 0; i < BLOCK_POINTS; i++) {
+      if (status_severity(bench_status(block->bench)[i]) >= GAMUT_WARN)
+        continue;
+      fine++;
+      bad += !(block->array[slot][i] >= 0);
+    }
+  }
+  check_figure(&proof->checks, (double)bad, 0,
+               "points without a real sound speed, of %zu that the law takes as fine", fine);
+}
+
+void prove_eos(struct proof *proof)
+{
+  struct suite suite;
+  if (suite_new(&suite, proof)) {
+    kernel_function function = kernel_operation(suite.specimen.kernel, 0);
+    suite_work(&suite, 0, "pressure");
+    suite_variants(&suite);
+    prove_sound_speed(proof, &suite.block, function);
+    prove_slopes(proof, &suite.block, function);
+    suite_derivatives(&suite, 1);
+  }
+  suite_free(&suite);
+}

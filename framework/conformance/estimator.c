@@ -1,0 +1,171 @@
+/* estimator: known integrals within its own error bars; saved and restored it goes on bit for bit. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "conformance/bare_run.h"
+
+/* Over independent standard normal x and y: a linear and a quadratic quantity. */
+enum { PARAMETERS = 2, QUANTITIES = 2, CAPACITY = 4096, RUNS_MAX = 1 << 20 };
+static const double true_mean[QUANTITIES] = {3, 1}, true_variance[QUANTITIES] = {4.25, 2.25};
+
+static void quantities(const double *x, double *value)
+{
+  value[0] = 3 + 2 * x[0] - 0.5 * x[1];
+  value[1] = x[0] * x[0] + 0.5 * x[1];
+}
+
+struct estimator_operations {
+  size_t size;
+  GAMUT_ESTIMATOR_OPS(void)
+};
+
+struct study {
+  const struct estimator_operations *ops;
+  void *self;
+  struct gamut_batch batch;
+  double *value;
+  size_t runs;
+};
+
+static gamut_status study_new(struct study *study, struct bare_run *run)
+{
+  *study = (struct study){.ops = run->ops};
+  study->batch = (struct gamut_batch){.parameters = PARAMETERS, .quantities = QUANTITIES,
+                                      .capacity = CAPACITY};
+  study->batch.point = calloc(CAPACITY * PARAMETERS, sizeof(double));
+  study->batch.level = calloc(CAPACITY, sizeof(int));
+  study->value = calloc(CAPACITY * QUANTITIES, sizeof(double));
+  study->batch.value = study->value;
+  return study->ops->create(bare_run_handle(run), run->specimen.values, PARAMETERS, QUANTITIES, 1,
+                            &study->self);
+}
+
+static void study_free(struct study *study)
+{
+  if (study->self)
+    study->ops->destroy(study->self);
+  free(study->batch.point);
+  free(study->batch.level);
+  free(study->value);
+}
+
+/* One batch; false at the end or on failure. */
+static bool study_batch(struct study *study, gamut_status *status)
+{
+  struct gamut_batch *batch = &study->batch;
+  batch->rows = 0;
+  *status = study->ops->ask(study->self, batch);
+  if (*status != GAMUT_OK || batch->rows == 0 || batch->rows > CAPACITY)
+    return false;
+  for (size_t r = 0; r < batch->rows; r++)
+    quantities(batch->point + r * PARAMETERS, study->value + r * QUANTITIES);
+  study->runs += batch->rows;
+  *status = study->ops->tell(study->self, batch);
+  return *status == GAMUT_OK && study->runs < RUNS_MAX;
+}
+
+static gamut_status study_end(struct study *study)
+{
+  gamut_status status = GAMUT_OK;
+  while (study_batch(study, &status))
+    ;
+  return status;
+}
+
+struct result {
+  double mean[QUANTITIES], variance[QUANTITIES], mean_error[QUANTITIES],
+      variance_error[QUANTITIES];
+};
+
+static gamut_status study_report(struct study *study, struct result *result)
+{
+  memset(result, 0, sizeof *result);
+  struct gamut_moments moments = {result->mean, result->variance, result->mean_error,
+                                  result->variance_error};
+  return study->ops->report(study->self, &moments);
+}
+
+static void prove_integrals(struct checks *checks, const struct study *study,
+                            const struct result *result)
+{
+  static const char *const name[QUANTITIES] = {"a linear", "a quadratic"};
+  for (int q = 0; q < QUANTITIES; q++) {
+    check_figure(checks, fabs(result->mean[q] - true_mean[q]),
+                 4 * result->mean_error[q] + 1e-9 * true_mean[q],
+                 "mean of %s quantity after %zu runs, against four of its error bars", name[q],
+                 study->runs);
+    check_figure(checks, fabs(result->variance[q] - true_variance[q]),
+                 4 * result->variance_error[q] + 1e-9 * true_variance[q],
+                 "variance of %s quantity, against four of its error bars", name[q]);
+  }
+}
+
+/* A study cut after `batches` and taken up by a fresh estimator. */
+static bool cut_study(struct bare_run *run, size_t batches, struct result *result)
+{
+  struct study first, second = {0};
+  gamut_status status = study_new(&first, run);
+  void *bytes = NULL;
+  for (size_t i = 0; status == GAMUT_OK && i < batches; i++)
+    if (!study_batch(&first, &status))
+      break;
+  if (status == GAMUT_OK) {
+    size_t size = first.ops->save(first.self, NULL);
+    bytes = malloc(size + 1);
+    if (first.ops->save(first.self, bytes) != size)
+      status = GAMUT_PLUGIN;
+    if (status == GAMUT_OK)
+      status = study_new(&second, run);
+    if (status == GAMUT_OK)
+      status = second.ops->restore(second.self, bytes, size);
+    if (status == GAMUT_OK)
+      status = study_end(&second);
+    if (status == GAMUT_OK)
+      status = study_report(&second, result);
+  }
+  free(bytes);
+  study_free(&first);
+  study_free(&second);
+  return status == GAMUT_OK;
+}
+
+static void prove_restore(struct proof *proof, struct bare_run *run, const struct result *whole)
+{
+  for (size_t batches = 0; batches < 3; batches++) {
+    struct result result;
+    check_begin(&proof->checks, "save and restore after %zu batches", batches);
+    bool fine = cut_study(run, batches, &result);
+    check_that(&proof->checks, fine && memcmp(&result, whole, sizeof result) == 0,
+               "saved after %zu batches and restored, it ends with the same bits", batches);
+  }
+}
+
+void prove_estimator(struct proof *proof)
+{
+  struct bare_run run;
+  struct study study = {0};
+  struct result result;
+  check_begin(&proof->checks, "making the estimator");
+  if (bare_run_new(&run, proof)) {
+    const struct estimator_operations *ops = run.ops;
+    bool whole = ops->create && ops->destroy && ops->ask && ops->tell && ops->report &&
+                 ops->save && ops->restore;
+    if (check_that(&proof->checks, whole, "all operations are there")) {
+      gamut_status status = study_new(&study, &run);
+      check_begin(&proof->checks, "a study of a linear and a quadratic quantity");
+      if (status == GAMUT_OK)
+        status = study_end(&study);
+      if (status == GAMUT_OK)
+        status = study_report(&study, &result);
+      bool ended = status == GAMUT_OK && study.runs > 0 && study.runs < RUNS_MAX;
+      if (check_that(&proof->checks, ended, "a study ends (%zu runs)", study.runs)) {
+        prove_integrals(&proof->checks, &study, &result);
+        prove_restore(proof, &run, &result);
+      }
+      bare_run_say(&run, &proof->checks);
+      study_free(&study);
+    }
+  }
+  bare_run_free(&run);
+}

@@ -1,0 +1,121 @@
+/* solver: a small scene runs to its end, its ledger closes, and threads do not change a bit. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "conformance/proof.h"
+#include "run/run.h"
+
+/* What one run of the scene left, to compare bits. */
+struct outcome {
+  gamut_status status;
+  double *value;
+  size_t count;
+  uint64_t steps;
+  double worst; /* ledger residual over its scale */
+  char account[64];
+};
+
+static void keep_histories(struct outcome *outcome, const struct gamut_run *run)
+{
+  size_t count, total = 0;
+  struct history *const *history = run_histories(run, &count);
+  for (size_t i = 0; i < count; i++)
+    total += 2 * history[i]->count;
+  outcome->value = calloc(total + 1, sizeof *outcome->value);
+  for (size_t i = 0; outcome->value && i < count; i++)
+    for (size_t k = 0; k < history[i]->count; k++) {
+      outcome->value[outcome->count++] = history[i]->time[k];
+      outcome->value[outcome->count++] = history[i]->value[k];
+    }
+}
+
+static void keep_ledger(struct outcome *outcome, const struct gamut_run *run)
+{
+  size_t count;
+  const struct ledger_line *line = run_ledger(run, &count);
+  for (size_t i = 0; i < count; i++) {
+    double scale, residual = run_ledger_residual(run, line[i].account, &scale);
+    double relative = residual == 0 ? 0 : fabs(residual) / scale;
+    if (!(relative <= outcome->worst)) {
+      outcome->worst = relative;
+      snprintf(outcome->account, sizeof outcome->account, " (%s)", line[i].account);
+    }
+  }
+}
+
+static void run_scene(struct proof *proof, const char *file, int threads, struct outcome *outcome)
+{
+  gamut_status status = GAMUT_OK;
+  struct trace *trace = trace_new();
+  struct scene *scene = NULL;
+  struct gamut_run *run = NULL;
+  const struct run_options options = {.threads = threads};
+  *outcome = (struct outcome){0};
+  TRY(scene_read(file, NULL, 0, proof->registry, proof->units, trace, &scene));
+  TRY(run_new(scene, proof->registry, &options, trace, &run));
+  TRY(run_march(run, trace));
+  keep_histories(outcome, run);
+  keep_ledger(outcome, run);
+  outcome->steps = run_cost_of(run).steps;
+done:
+  outcome->status = status;
+  if (status != GAMUT_OK) {
+    char *text = trace_text(trace);
+    check_say(&proof->checks, "%s", text ? text : "");
+    free(text);
+  }
+  run_free(run);
+  scene_free(scene);
+  trace_free(trace);
+}
+
+void prove_scene(struct proof *proof)
+{
+  const struct descriptor *d = proof->descriptor;
+  struct outcome outcome[3];
+  size_t length = strlen(d->folder) + strlen(d->name) + 32;
+  char *file = malloc(length);
+  if (!file)
+    return;
+  snprintf(file, length, "%s/%s.scene.yaml", d->folder, d->name);
+  if (access(file, R_OK) != 0) {
+    check_skip(&proof->checks, "no such file", "the scene %s.scene.yaml", d->name);
+    free(file);
+    return;
+  }
+  for (int k = 0; k < 3; k++) {
+    check_begin(&proof->checks, "the scene %s.scene.yaml on %d threads", d->name, k + 1);
+    run_scene(proof, file, k + 1, &outcome[k]);
+  }
+  bool ended = outcome[0].status == GAMUT_OK && outcome[1].status == GAMUT_OK &&
+               outcome[2].status == GAMUT_OK;
+  check_that(&proof->checks, ended, "the scene %s.scene.yaml runs to its end (%llu steps)", d->name,
+             (unsigned long long)outcome[0].steps);
+  if (ended) {
+    size_t different = 0;
+    for (int k = 1; k < 3; k++)
+      different += outcome[k].count != outcome[0].count ||
+                   memcmp(outcome[k].value, outcome[0].value,
+                          outcome[0].count * sizeof(double)) != 0;
+    check_figure(&proof->checks, outcome[0].worst, 1e-10, "residual of the ledger, relative%s",
+                 outcome[0].account);
+    check_figure(&proof->checks, (double)different, 0,
+                 "runs on 2 and 3 threads with other bits (%zu numbers compared)",
+                 outcome[0].count);
+  }
+  for (int k = 0; k < 3; k++)
+    free(outcome[k].value);
+  free(file);
+}
+
+void prove_solver(struct proof *proof)
+{
+  struct trace *trace = trace_new();
+  const struct descriptor *d = proof->descriptor;
+  check_that(&proof->checks, d->axis != NULL, "the solver says along which axis it marches");
+  check_that(&proof->checks, d->phases > 0, "the solver lists its phases");
+  trace_free(trace);
+  prove_scene(proof);
+}
