@@ -101,7 +101,8 @@ static void rescue(const struct hypoelastic *b, double bisect)
     double exponent = taken / (d * slope);
     double ratio = excess / taken;
     ratio = ratio > 0.0 ? ratio : 1.0;
-    double next = d * gamut_exp(exponent * gamut_log(ratio)), middle = 0.5 * (lower + upper);
+    double next = d * gamut_exp(exponent * gamut_log(ratio));
+    double least = 1e-6 * upper, middle = sqrt((lower > least ? lower : least) * upper);
     next = bisect > 0.0 ? middle : next;
     next = next > lower ? next : middle;
     next = next < upper ? next : middle;
