@@ -37,7 +37,7 @@ static void component_read(struct reading *reading, const struct tree *node,
     blame_value(reading, node, "arithmetic in x, y, z (metres) that gives m/s",
                 "cannot read the velocity '%.60s': %s", node->text, why);
   else
-    number_read(reading, node, "velocity", "m/s", &body->velocity[k]);
+    amount_read(reading, node, "velocity", "m/s", &body->velocity[k]);
 }
 
 static void velocity_read(struct reading *reading, const struct tree *node,

@@ -11,14 +11,14 @@ static void frames_read(struct reading *reading, const struct tree *node)
   if (every && frames) {
     blame_key(reading, frames, "one of them", "'every' and 'frames' are both given");
   } else if (every) {
-    if (!number_read(reading, every, "every", axis_unit(reading), &value))
+    if (!amount_read(reading, every, "every", axis_unit(reading), &value))
       return;
     if (value > 0)
       scene->output_every = value;
     else
       blame_value(reading, every, "greater than 0", "'every' is not positive");
   } else if (frames) {
-    if (!number_read(reading, frames, "frames", "1", &value))
+    if (!amount_read(reading, frames, "frames", "1", &value))
       return;
     if (value >= 1 && value <= 1e6 && value == (double)(long)value)
       scene->output_every = -value;

@@ -82,7 +82,7 @@ bool has_name(const char *const *name, size_t count, const char *wanted);
 
 bool unit_is_pure(const char *unit);
 /* A number in SI from a scalar; faults are told at the node. */
-bool number_read(struct reading *, const struct tree *, const char *name, const char *unit,
+bool amount_read(struct reading *, const struct tree *, const char *name, const char *unit,
                  double *value);
 /* A sequence of numbers; the array is the caller's to free, null with a fault. */
 double *vector_read(struct reading *, const struct tree *, const char *name, const char *unit,

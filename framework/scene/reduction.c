@@ -67,7 +67,7 @@ bool reduction_read(struct reading *reading, const struct tree *node, const char
   reduction->kind = form->kind;
   reduction->time_of_max = form->time_of_max;
   if (form->kind == REDUCE_TIME_OF && !form->time_of_max)
-    return number_read(reading, child, form->name, unit, &reduction->level);
+    return amount_read(reading, child, form->name, unit, &reduction->level);
   size_t count;
   double *window = vector_read(reading, child, form->name, axis_unit(reading), 2, 2, &count);
   bool fine = window && window[0] < window[1];

@@ -100,7 +100,7 @@ static bool length_read(struct reading *reading, const struct tree *mapping, con
                 "'%s' is missing in '%s'", key, mapping->key);
     return !required;
   }
-  if (!number_read(reading, node, key, "m", length))
+  if (!amount_read(reading, node, key, "m", length))
     return false;
   if (*length > 0)
     return true;

@@ -31,7 +31,7 @@ double *vector_read(struct reading *reading, const struct tree *node, const char
   double *number = scene_take(node->children, sizeof *number);
   size_t faults = reading->faults;
   for (size_t i = 0; i < node->children; i++)
-    number_read(reading, node->child[i], name, unit, &number[i]);
+    amount_read(reading, node->child[i], name, unit, &number[i]);
   *count = node->children;
   if (reading->faults == faults)
     return number;
@@ -57,7 +57,7 @@ static bool table_in_place(struct reading *reading, const struct parameter *para
       continue;
     }
     for (size_t k = 0; k < columns; k++)
-      number_read(reading, row->child[k], parameter->choice[k], parameter->choice_unit[k],
+      amount_read(reading, row->child[k], parameter->choice[k], parameter->choice_unit[k],
                   &number[i * columns + k]);
   }
   value->number = number;

@@ -32,7 +32,7 @@ static bool not_a_scalar(struct reading *reading, const struct tree *node, const
   return false;
 }
 
-bool number_read(struct reading *reading, const struct tree *node, const char *name,
+bool amount_read(struct reading *reading, const struct tree *node, const char *name,
                  const char *unit, double *value)
 {
   char text[64], expected[320] = "a number, such as 0.3", due[96];

@@ -40,7 +40,7 @@ static bool part(struct reading *reading, const struct tree *node, const char *k
 {
   const struct tree *child = tree_get(node, key);
   if (child)
-    return number_read(reading, child, key, unit, value);
+    return amount_read(reading, child, key, unit, value);
   if (required)
     blame_value(reading, node,
                 "{mean:, cv:}, {mean:, sd:} or {distribution: uniform, lower:, upper:}",

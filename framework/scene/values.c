@@ -45,14 +45,14 @@ static bool real_read(struct reading *reading, const struct parameter *parameter
 {
   if (node->kind == TREE_MAPPING)
     return random_read(reading, parameter, node, value);
-  return number_read(reading, node, parameter->name, parameter->unit, &value->real) &&
+  return amount_read(reading, node, parameter->name, parameter->unit, &value->real) &&
          range_check(reading, parameter, node, value->real);
 }
 
 static bool integer_read(struct reading *reading, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
-  if (!number_read(reading, node, parameter->name, parameter->unit, &value->real))
+  if (!amount_read(reading, node, parameter->name, parameter->unit, &value->real))
     return false;
   if (value->real != nearbyint(value->real) || fabs(value->real) > 9007199254740992.) {
     blame_value(reading, node, "a whole number", "'%s' is no whole number: '%.60s'",
@@ -150,6 +150,30 @@ static bool value_read(struct reading *reading, const struct parameter *paramete
   return false;
 }
 
+/* Whether a group lacks something when none of its members is given. */
+static bool group_needed(const struct parameter *group)
+{
+  for (size_t i = 0; i < group->members; i++) {
+    const struct parameter *member = &group->member[i];
+    if (!member->standard && !member->optional &&
+        (member->type != VALUE_GROUP || group_needed(member)))
+      return true;
+  }
+  return false;
+}
+
+static void group_text(const struct parameter *group, char *expected, size_t size)
+{
+  char list[WORDS_SIZE / 2];
+  const char **name = scene_take(group->members, sizeof *name);
+  for (size_t i = 0; i < group->members; i++)
+    name[i] = group->member[i].name;
+  snprintf(expected, size, "a mapping with the keys %s%s%s",
+           list_text(name, group->members, list, sizeof list), group->doc ? ": " : "",
+           group->doc ? group->doc : "");
+  free(name);
+}
+
 static void missing(struct reading *reading, const struct section *section,
                     const struct parameter *parameter)
 {
@@ -160,6 +184,8 @@ static void missing(struct reading *reading, const struct section *section,
     snprintf(expected, sizeof expected, "a number with its unit, such as '%s'%s%s",
              unit_example(parameter->unit), parameter->doc ? ": " : "",
              parameter->doc ? parameter->doc : "");
+  else if (parameter->type == VALUE_GROUP)
+    group_text(parameter, expected, sizeof expected);
   else if (parameter->doc)
     snprintf(expected, sizeof expected, "%s", parameter->doc);
   blame_missing(reading, section->node, path, expected[0] ? expected : NULL, "'%s' is missing in %s",
@@ -181,12 +207,9 @@ static void parameter_read(struct reading *reading, const struct section *sectio
   }
   bool needed = !parameter->optional && !section->lenient;
   if (parameter->type == VALUE_GROUP) {
-    const struct tree *here = reading->here;
-    if (section->node)
-      reading->here = section->node;
-    value->present = group_read(reading, parameter, NULL, section->path, !needed, value) && needed;
-    reading->here = here;
-    return;
+    group_read(reading, parameter, NULL, section->path, true, value);
+    value->present = !parameter->optional && !group_needed(parameter);
+    needed = needed && group_needed(parameter);
   }
   if (needed && !given_set_names(section->descriptor, parameter->name))
     missing(reading, section, parameter);
