@@ -15,25 +15,40 @@ static int longest(const struct registry *registry)
   return (int)width;
 }
 
-static void list_table(const struct registry *registry)
+/* Length of FOLDER in FOLDER/KIND/NAME, where the plugin was found. */
+static size_t home_length(const struct descriptor *descriptor)
 {
+  size_t length = strlen(descriptor->folder), tail = strlen(descriptor->id) + 1;
+  return length > tail ? length - tail : length;
+}
+
+static bool same_home(const struct descriptor *one, const struct descriptor *other)
+{
+  size_t length = home_length(one);
+  return length == home_length(other) && strncmp(one->folder, other->folder, length) == 0;
+}
+
+/* One table for each folder, in the order of the first plugin found there. */
+static void list_tables(const struct registry *registry)
+{
+  size_t count = registry_count(registry);
   int width = longest(registry);
-  const char *folder = "";
-  for (size_t i = 0; i < registry_count(registry); ++i) {
-    const struct descriptor *descriptor = registry_at(registry, i);
-    printf("%-*s  %-5s  %s\n", width, descriptor->id, descriptor->version, descriptor->summary);
-  }
-  if (registry_count(registry) == 0)
+  if (count == 0)
     puts("no plugins are installed; 'gamut list --paths' tells where was looked");
-  for (size_t i = 0; i < registry_count(registry); ++i) {
-    const struct descriptor *descriptor = registry_at(registry, i);
-    /* FOLDER/KIND/NAME: plugins of one folder are named once */
-    size_t length = strlen(descriptor->folder), tail = strlen(descriptor->id) + 1;
-    length = length > tail ? length - tail : length;
-    if (strlen(folder) > length && strncmp(folder, descriptor->folder, length + 1) == 0)
+  for (size_t first = 0; first < count; ++first) {
+    const struct descriptor *home = registry_at(registry, first);
+    size_t earlier = 0;
+    while (!same_home(registry_at(registry, earlier), home))
+      ++earlier;
+    if (earlier < first)
       continue;
-    folder = descriptor->folder;
-    printf("%sin %.*s\n", i == 0 ? "\n" : "", (int)length, folder);
+    printf("%sin %.*s\n", first ? "\n" : "", (int)home_length(home), home->folder);
+    for (size_t i = first; i < count; ++i) {
+      const struct descriptor *descriptor = registry_at(registry, i);
+      if (same_home(descriptor, home))
+        printf("  %-*s  %-5s  %s\n", width, descriptor->id, descriptor->version,
+               descriptor->summary);
+    }
   }
 }
 
@@ -64,7 +79,7 @@ gamut_status command_list(struct command *command)
   } else if (paths) {
     registry_paths(command->registry, stdout);
   } else {
-    list_table(command->registry);
+    list_tables(command->registry);
   }
 done:
   return status;

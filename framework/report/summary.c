@@ -1,0 +1,139 @@
+#include "report/report.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <jansson.h>
+
+#include "report/readable.h"
+
+static double number(const json_t *object, const char *key, double otherwise)
+{
+  const json_t *value = json_object_get(object, key);
+  return json_is_number(value) ? json_number_value(value) : otherwise;
+}
+
+static const char *word(const json_t *object, const char *key, const char *otherwise)
+{
+  const char *text = json_string_value(json_object_get(object, key));
+  return text ? text : otherwise;
+}
+
+/* "102 samples, 0 m to 16.2 mm at the end, largest 17 mm" */
+static void write_history(const json_t *values, const char *unit, FILE *file)
+{
+  double least = INFINITY, most = -INFINITY, last = NAN;
+  char low[48], high[48], end[48];
+  size_t index;
+  json_t *entry;
+  json_array_foreach(values, index, entry)
+  {
+    if (!json_is_number(entry))
+      continue;
+    last = json_number_value(entry);
+    least = fmin(least, last);
+    most = fmax(most, last);
+  }
+  if (!isfinite(least)) {
+    fprintf(file, "a history without numbers\n");
+    return;
+  }
+  double like = fmax(fabs(least), fabs(most));
+  fprintf(file, "%s at the end; from %s to %s in %zu samples\n",
+          readable_like(last, like, unit, end, sizeof end),
+          readable_like(least, like, unit, low, sizeof low),
+          readable_like(most, like, unit, high, sizeof high), json_array_size(values));
+}
+
+static void write_quantity(const char *name, const json_t *quantity, int width, FILE *file)
+{
+  const char *unit = word(quantity, "unit", "1");
+  const json_t *values = json_object_get(quantity, "values");
+  double value = number(quantity, "mean", number(quantity, "value", NAN));
+  double variance = number(quantity, "variance", NAN), error = number(quantity, "mean_error", NAN);
+  char text[48];
+  fprintf(file, "  %-*s  ", width, name);
+  if (json_is_array(values)) {
+    write_history(values, unit, file);
+    return;
+  }
+  if (isnan(value)) {
+    fprintf(file, "no value%s%s\n", json_object_get(quantity, "why") ? ": " : "",
+            word(quantity, "why", ""));
+    return;
+  }
+  fprintf(file, "%s", readable(value, unit, text, sizeof text));
+  if (!isnan(error))
+    fprintf(file, " +- %s", readable_like(error, value, unit, text, sizeof text));
+  if (!isnan(variance))
+    fprintf(file, ", standard deviation %s",
+            readable_like(sqrt(variance), value, unit, text, sizeof text));
+  fputc('\n', file);
+}
+
+static void write_quantities(json_t *quantities, FILE *file)
+{
+  const char *name;
+  json_t *quantity;
+  int width = 0;
+  json_object_foreach(quantities, name, quantity)
+  {
+    width = (int)strlen(name) > width ? (int)strlen(name) : width;
+  }
+  if (width > 0)
+    fprintf(file, "quantities\n");
+  json_object_foreach(quantities, name, quantity)
+  {
+    write_quantity(name, quantity, width, file);
+  }
+}
+
+/* An account is told by how well it closes; its parts are in summary.json. */
+static void write_ledger(json_t *ledger, FILE *file)
+{
+  const char *account;
+  json_t *parts;
+  bool first = true;
+  json_object_foreach(ledger, account, parts)
+  {
+    double residual = number(parts, "relative_residual", NAN);
+    if (isnan(residual))
+      residual = fabs(number(parts, "residual", NAN)) / number(parts, "scale", 1);
+    if (isnan(residual))
+      continue;
+    fprintf(file, "%s%s to %.1e", first ? "ledger closes: " : ", ", account, residual);
+    first = false;
+  }
+  if (!first)
+    fprintf(file, " of the largest part\n");
+}
+
+static void write_cost(const json_t *cost, FILE *file)
+{
+  double wall = number(cost, "wall_s", NAN), rate = number(cost, "point_steps_per_s", NAN);
+  char text[64];
+  if (isnan(wall))
+    return;
+  fprintf(file, "cost: %.0f points, %.0f steps, %.3g s", number(cost, "points", 0),
+          number(cost, "steps", 0), wall);
+  if (!isnan(rate))
+    fprintf(file, " (%s)", readable_rate(rate, text, sizeof text));
+  double peak = number(cost, "peak_bytes", NAN);
+  if (!isnan(peak))
+    fprintf(file, ", %.3g MB", peak / 1e6);
+  fputc('\n', file);
+}
+
+void report_summary(const char *summary_json, FILE *file)
+{
+  json_error_t error;
+  json_t *summary = json_loads(summary_json, 0, &error);
+  if (!summary) {
+    fprintf(file, "the summary cannot be read: %s\n", error.text);
+    return;
+  }
+  write_quantities(json_object_get(summary, "quantities"), file);
+  write_ledger(json_object_get(summary, "ledger"), file);
+  write_cost(json_object_get(summary, "cost"), file);
+  json_decref(summary);
+}
