@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdarg.h>
 
 #include "field/vocabulary.h"
@@ -75,6 +76,26 @@ static bool host_body_bounds(const struct gamut_body *body, double lower[3], dou
 static bool host_body_contains(const struct gamut_body *body, const double x[3])
 {
   return body->shape.kind != SHAPE_NONE && shape_contains(&body->shape, x);
+}
+
+static double host_body_volume(const struct gamut_body *body, unsigned dimension, bool revolved)
+{
+  const double pi = 3.14159265358979323846;
+  const struct shape *shape = &body->shape;
+  double r = shape->radius, volume = 1.0, x[3], y[3];
+  if (shape->kind == SHAPE_NONE)
+    return 0.0;
+  shape_bounds(shape, x, y);
+  if (shape->kind == SHAPE_SPHERE)
+    return dimension == 3 || revolved ? 4.0 / 3.0 * pi * r * r * r : dimension == 2 ? pi * r * r : 2 * r;
+  if (shape->kind == SHAPE_CYLINDER && (dimension == 3 || revolved))
+    return pi * r * r * shape->length;
+  if (shape->kind == SHAPE_CYLINDER && dimension == 2 && shape->axis == 2)
+    return pi * r * r;
+  for (unsigned k = 0; k < dimension; k++)
+    volume *= revolved && k == 0 ? pi * (y[0] * y[0] - fmax(x[0], 0.0) * fmax(x[0], 0.0))
+                                 : y[k] - x[k];
+  return volume;
 }
 
 static void host_body_velocity(const struct gamut_body *body, const double x[3], double v[3])
@@ -256,4 +277,5 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .time_step = host_time_step,
                                     .step = host_step,
                                     .threads = host_threads,
-                                    .chunk = host_chunk};
+                                    .chunk = host_chunk,
+                                    .body_volume = host_body_volume};

@@ -225,6 +225,10 @@ struct gamut_host {
   uint64_t (*step)(const struct gamut_run *);
   int (*threads)(const struct gamut_run *);
   size_t (*chunk)(const struct gamut_run *); /* points a chunk, a multiple of GAMUT_LANES */
+
+  /* Exact volume of the body's shape in a space of so many axes (per unit of those it lacks), or of the
+   * shape revolved about y. 0 where the body has no shape. */
+  double (*body_volume)(const struct gamut_body *, unsigned dimension, bool revolved);
 };
 
 /* Every run begins with its host; the rest is the core's. */
