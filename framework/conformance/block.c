@@ -229,8 +229,8 @@ static void count_writes(const struct block *block, const struct work *work, siz
   }
 }
 
-static size_t unflagged(const struct block *block, const struct work *work, char *which,
-                        size_t size)
+static size_t unflagged(const struct block *block, const struct work *work,
+                        const int64_t *excuse, char *which, size_t size)
 {
   size_t bad = 0;
   for (size_t s = 0; s < block->proof->slots; s++)
@@ -238,7 +238,7 @@ static size_t unflagged(const struct block *block, const struct work *work, char
       const struct slot *slot = &block->proof->slot[s];
       if (!block->array[s] || !(writes(work, slot) || adds(work, slot)))
         continue;
-      if (isfinite(block->array[s][i]) || bench_status(block->bench)[i] != 0)
+      if (isfinite(block->array[s][i]) || excuse[i] != 0 || bench_status(block->bench)[i] != 0)
         continue;
       bad++;
       snprintf(which, size, " (%s at point %zu is %g)", slot->name, i, block->array[s][i]);
@@ -290,6 +290,12 @@ struct findings {
 static void work_round(struct block *block, const struct work *work, struct findings *f)
 {
   struct record record = {0};
+  int64_t excuse[BLOCK_ROOM] = {0};
+  if (work->flags) {
+    block_mark(block);
+    bench_call(block->bench, work->flags, BLOCK_POINTS);
+    memcpy(excuse, bench_status(block->bench), sizeof excuse);
+  }
   call(block, work, 0);
   count_writes(block, work, 0, &f->left, &f->beyond, f->which[2], sizeof f->which[2]);
   call(block, work, 7);
@@ -298,7 +304,7 @@ static void work_round(struct block *block, const struct work *work, struct find
   record_take(&record, block);
   f->touched += touched_inputs(block, f->which[1], sizeof f->which[1]);
   count_writes(block, work, BLOCK_POINTS, &f->left, &f->beyond, f->which[2], sizeof f->which[2]);
-  f->unflagged += unflagged(block, work, f->which[0], sizeof f->which[0]);
+  f->unflagged += unflagged(block, work, excuse, f->which[0], sizeof f->which[0]);
   for (size_t i = 0; i < BLOCK_POINTS; i++, f->points++)
     f->flagged += record.status[i] != 0;
   call(block, work, BLOCK_POINTS);

@@ -35,12 +35,26 @@ double draw_between(struct proof *proof, double lower, double upper)
 
 /* ---- parameters -------------------------------------------------------------------------------- */
 
+/* What is usual for a solid, by the unit. */
+static double usual(const struct parameter *p)
+{
+  static const struct {
+    const char *unit;
+    double value;
+  } known[] = {{"Pa", 1e9}, {"K", 1000}, {"kg/m3", 8000}, {"m/s", 4000}, {"J/(kg K)", 400}};
+  for (size_t i = 0; p->unit && i < sizeof known / sizeof known[0]; i++)
+    if (strcmp(known[i].unit, p->unit) == 0)
+      return known[i].value;
+  return 1.0;
+}
+
 /* A value inside a range, away from open ends. */
 static double middle(const struct parameter *p)
 {
   const struct range *range = p->fit.stated ? &p->fit : &p->physical;
-  if (!range->stated || (isinf(range->lower) && isinf(range->upper)))
-    return 1.0;
+  if (!range->stated || (isinf(range->lower) && isinf(range->upper)) ||
+      (isinf(range->upper) && range_holds(range, usual(p))))
+    return usual(p);
   if (isinf(range->upper))
     return range->lower > 0 ? 2 * range->lower : range->lower + 1;
   if (isinf(range->lower))

@@ -86,6 +86,7 @@ struct work {
   const char *label;
   const struct kernel_task *task; /* null: all outputs */
   bool derivatives;               /* writes the derivative arrays instead */
+  kernel_function flags;          /* whose flags excuse a value that is not finite; null: its own */
 };
 /* Finite or flagged, repeatable, blocks of 0, 1, 7, 256, inputs untouched, outputs written. */
 void prove_work(struct block *, const struct work *);

@@ -61,7 +61,10 @@ void suite_derivatives(struct suite *suite, size_t operation)
                proof->descriptor->derivative_of);
     return;
   }
-  const struct work work = {.function = own, .label = "derivatives", .derivatives = true};
+  const struct work work = {.function = own,
+                            .label = "derivatives",
+                            .derivatives = true,
+                            .flags = kernel_operation(suite->specimen.kernel, 0)};
   bench_offer_derivatives(suite->bench, true);
   prove_work(&suite->block, &work);
   bench_offer_derivatives(suite->bench, false);
