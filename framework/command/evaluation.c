@@ -197,7 +197,8 @@ static gamut_status count_points(struct evaluation *e, struct command *command)
   return GAMUT_OK;
 }
 
-/* Everything a law depends on: its real parameters, and the density where it reads that. */
+/* Everything a law depends on: the real parameters that were stated or have a default, and the density
+ * where it reads that. What follows from others by a given set is no free parameter. */
 static void list_bys(struct evaluation *e)
 {
   const struct descriptor *d = e->descriptor;
@@ -205,38 +206,71 @@ static void list_bys(struct evaluation *e)
   bool own = d->derivative_of && strcmp(d->derivative_of, e->of) == 0;
   for (size_t i = 0; i < e->slots; i++) {
     const struct slot *slot = &e->slot[i];
-    bool parameter = slot->kind == SLOT_PARAMETER && d->parameter[slot->index].type == VALUE_REAL;
-    if (!parameter && !(slot->kind == SLOT_INPUT && strcmp(slot->name, "reference_density") == 0))
+    struct eval_by by = {.name = slot->name, .own = -1, .parameter = -1};
+    if (slot->kind == SLOT_PARAMETER && d->parameter[slot->index].type == VALUE_REAL) {
+      const struct value *value = &e->specimen.values->value[slot->index];
+      by.parameter = (int)slot->index;
+      if (!value->present || (!value->given && !value->parameter->standard))
+        continue;
+    } else if (slot->kind != SLOT_INPUT || strcmp(slot->name, "reference_density") != 0) {
       continue;
-    struct eval_by *by = &e->by[e->bys++];
-    *by = (struct eval_by){.name = slot->name, .own = -1};
+    }
     for (size_t k = 0; own && k < d->derivatives; k++)
       if (strcmp(d->derivative_by[k], slot->name) == 0)
-        by->own = (int)k;
+        by.own = (int)k;
+    e->by[e->bys++] = by;
   }
 }
 
+/* One or two arguments of the law that are moved for differences. */
 struct probe {
   struct evaluation *e;
-  double *x, *y; /* arrays of the two arguments */
+  const struct eval_by *x, *y; /* y may be null */
   double x0, y0;
 };
+
+static double argument_value(const struct evaluation *e, const struct eval_by *by)
+{
+  if (by->parameter >= 0)
+    return e->specimen.values->value[by->parameter].real;
+  return bench_array(e->probe, by->name)[0];
+}
+
+/* Sets a parameter as a scene would, so that what follows from it by a given set follows. */
+static bool argument_set(struct evaluation *e, const struct eval_by *by, double value)
+{
+  if (by->parameter < 0) {
+    bench_array(e->probe, by->name)[0] = value;
+    return true;
+  }
+  struct trace *trace = trace_new();
+  gamut_status status = values_set(e->specimen.values, e->descriptor, (size_t)by->parameter, value,
+                                   trace);
+  trace_free(trace);
+  for (size_t i = 0; i < e->slots; i++)
+    if (e->slot[i].kind == SLOT_PARAMETER) {
+      const struct value *one = &e->specimen.values->value[e->slot[i].index];
+      bench_array(e->probe, e->slot[i].name)[0] = one->present ? one->real : NAN;
+    }
+  return status == GAMUT_OK;
+}
 
 static double probe_value(void *self, double x, double y)
 {
   struct probe *probe = self;
-  struct bench *bench = probe->e->probe;
-  *probe->x = probe->x0 + x;
+  struct evaluation *e = probe->e;
+  double value = NAN;
+  bool taken = argument_set(e, probe->x, probe->x0 + x) &&
+               (!probe->y || argument_set(e, probe->y, probe->y0 + y));
+  if (taken) {
+    bench_call(e->probe, kernel_operation(e->specimen.kernel, 0), 1);
+    if (status_severity(bench_status(e->probe)[0]) != GAMUT_STOP)
+      value = bench_array(e->probe, e->of)[0];
+  }
+  argument_set(e, probe->x, probe->x0);
   if (probe->y)
-    *probe->y = probe->y0 + y;
-  *bench_status(bench) = 0;
-  bench_call(bench, kernel_operation(probe->e->specimen.kernel, 0), 1);
-  double value = *bench_array(bench, probe->e->of);
-  bool stopped = status_severity(*bench_status(bench)) == GAMUT_STOP;
-  *probe->x = probe->x0;
-  if (probe->y)
-    *probe->y = probe->y0;
-  return stopped ? NAN : value;
+    argument_set(e, probe->y, probe->y0);
+  return value;
 }
 
 static double first_step(double value)
@@ -246,18 +280,19 @@ static double first_step(double value)
 
 static double by_differences(struct evaluation *e, size_t k, size_t l, bool second)
 {
-  double error;
-  struct probe probe = {.e = e, .x = bench_array(e->probe, e->by[k].name)};
-  probe.x0 = *probe.x;
+  double error, value;
+  struct probe probe = {.e = e, .x = &e->by[k], .x0 = argument_value(e, &e->by[k])};
   struct difference difference = {.value = probe_value,
                                   .self = &probe,
                                   .step_x = first_step(probe.x0)};
-  if (!second)
-    return difference_first(&difference, &error);
+  if (!second) {
+    value = difference_first(&difference, &error);
+    return isfinite(value) ? value : difference_sided(&difference, 1, &error);
+  }
   if (k == l)
     return difference_second(&difference, &error);
-  probe.y = bench_array(e->probe, e->by[l].name);
-  probe.y0 = *probe.y;
+  probe.y = &e->by[l];
+  probe.y0 = argument_value(e, probe.y);
   difference.step_y = first_step(probe.y0);
   return difference_mixed(&difference, &error);
 }
@@ -303,9 +338,8 @@ done:
 static gamut_status derive(struct evaluation *e, struct command *command)
 {
   gamut_status status = GAMUT_OK;
-  size_t own = e->descriptor->derivatives, n = e->bys;
   list_bys(e);
-  n = e->bys;
+  size_t own = e->descriptor->derivatives, n = e->bys;
   double *scratch = calloc(own + own * own + 1, sizeof *scratch);
   e->first = calloc(e->points * n + 1, sizeof *e->first);
   e->second = calloc(e->points * n * n + 1, sizeof *e->second);

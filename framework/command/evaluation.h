@@ -20,7 +20,8 @@ struct eval_input {
 /* A parameter (or input) that derivatives are taken by. */
 struct eval_by {
   const char *name;
-  int own; /* its number in the descriptor's `derivatives: by`, or -1: by differences */
+  int own;       /* its number in the descriptor's `derivatives: by`, or -1: by differences */
+  int parameter; /* its number in the descriptor, or -1: an input */
 };
 
 struct evaluation {
