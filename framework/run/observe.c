@@ -14,7 +14,7 @@ static struct running_effect *effect_called(struct gamut_run *run, const char *n
 
 static bool from_points(const struct quantity *quantity)
 {
-  return quantity->field || (quantity->measure && quantity->measure->formula);
+  return quantity->field || (quantity->measure && quantity->measure->at == MEASURE_POINT);
 }
 
 static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
@@ -34,10 +34,11 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
     probe->history->axis_unit = solver->axis_unit;
   }
   if (from_points(quantity)) {
-    if (quantity->field)
-      TRY(formula_plain(run, quantity->field, &probe->formula));
-    else
+    if (quantity->measure && quantity->measure->formula)
       TRY(formula_new(run, quantity->measure->formula, &probe->formula));
+    else
+      TRY(formula_plain(run, quantity->measure ? quantity->measure->name : quantity->field,
+                        &probe->formula));
     snprintf(why, sizeof why, "quantity %s", quantity->name);
     formula_want(&probe->formula, run, why);
   } else if (quantity->effect) {

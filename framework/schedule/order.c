@@ -26,6 +26,9 @@ static bool reads_last(enum gamut_access access)
  * before writers. Two that write and read the same keep the order in which they were registered. */
 static bool must_precede(const struct task *one, const struct task *other)
 {
+  if (one->extent != other->extent &&
+      (one->extent == GAMUT_OPEN_BLOCK || other->extent == GAMUT_CLOSE_BLOCK))
+    return other->extent != GAMUT_ONCE && one->extent != GAMUT_ONCE;
   for (size_t u = 0; u < one->uses; u++) {
     const struct field *field = one->use[u].field;
     enum gamut_access access = one->use[u].access;

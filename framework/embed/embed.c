@@ -1,0 +1,173 @@
+#include <gamut/gamut.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+#include <gsl/gsl_errno.h>
+#include <hdf5.h>
+
+#include "registry/registry.h"
+#include "run/run.h"
+#include "scene/scene.h"
+#include "store/store.h"
+
+struct gamut_session {
+  struct units *units;
+  struct registry *registry;
+  struct trace *trace;
+  char *messages;
+};
+
+const char *gamut_version(void)
+{
+  return GAMUT_VERSION;
+}
+
+struct gamut_session *gamut_session_new(const char *plugin_path)
+{
+  char why[256];
+  const struct registry_options options = {.plugin_path = plugin_path, .user_plugins = true};
+  struct gamut_session *session = calloc(1, sizeof *session);
+  if (!session)
+    return NULL;
+  gsl_set_error_handler_off();
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  session->trace = trace_new();
+  session->units = units_new(why, sizeof why);
+  if (!session->trace || !session->units ||
+      registry_new(&options, session->units, session->trace, &session->registry) != GAMUT_OK) {
+    gamut_session_free(session);
+    return NULL;
+  }
+  return session;
+}
+
+void gamut_session_free(struct gamut_session *session)
+{
+  if (!session)
+    return;
+  registry_free(session->registry);
+  units_free(session->units);
+  trace_free(session->trace);
+  free(session->messages);
+  free(session);
+}
+
+/* Messages belong to one call: what was said before is forgotten. */
+static gamut_status begin(struct gamut_session *session)
+{
+  struct trace *fresh = trace_new();
+  if (!fresh)
+    return GAMUT_INTERNAL;
+  trace_free(session->trace);
+  session->trace = fresh;
+  return GAMUT_OK;
+}
+
+static gamut_status end(struct gamut_session *session, gamut_status status)
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *stream = open_memstream(&text, &size);
+  if (stream) {
+    trace_print(session->trace, stream);
+    fclose(stream);
+  }
+  free(session->messages);
+  session->messages = text;
+  gamut_status worst = trace_worst(session->trace);
+  return worst != GAMUT_OK ? worst : status;
+}
+
+static gamut_status read_scene(struct gamut_session *session, const char *file,
+                               const struct gamut_run_request *request, struct scene **scene)
+{
+  gamut_status status = GAMUT_OK;
+  struct scene_override *override = calloc(request->sets + 1, sizeof *override);
+  char **path = calloc(request->sets + 1, sizeof *path);
+  if (!override || !path) {
+    status = trace_fail(session->trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
+  for (size_t i = 0; i < request->sets; i++) {
+    const char *equals = strchr(request->set[i], '=');
+    if (!equals) {
+      status = trace_fail(session->trace, GAMUT_USAGE, "'%s' is not of the form path=value",
+                          request->set[i]);
+      goto done;
+    }
+    path[i] = strndup(request->set[i], (size_t)(equals - request->set[i]));
+    override[i] = (struct scene_override){path[i], equals + 1};
+  }
+  TRY(scene_read(file, override, request->sets, session->registry, session->units, session->trace,
+                 scene));
+done:
+  for (size_t i = 0; path && i < request->sets; i++)
+    free(path[i]);
+  free(path);
+  free(override);
+  return status;
+}
+
+gamut_status gamut_check_scene(struct gamut_session *session, const char *file,
+                               const struct gamut_run_request *request)
+{
+  struct scene *scene = NULL;
+  gamut_status status = begin(session);
+  if (status == GAMUT_OK)
+    status = read_scene(session, file, request, &scene);
+  scene_free(scene);
+  return end(session, status);
+}
+
+static gamut_status run_and_record(struct gamut_session *session, struct scene *scene,
+                                   const struct gamut_run_request *request, char **summary)
+{
+  gamut_status status, marched;
+  struct gamut_run *run = NULL;
+  struct store *store = NULL;
+  const struct run_options options = {.threads = request->threads};
+  size_t count;
+  TRY(run_new(scene, session->registry, &options, session->trace, &run));
+  if (request->folder) {
+    TRY(store_open(request->folder, request->force != 0, session->trace, &store));
+    run_record(run, store);
+    TRY(store_scene(store, scene->tree, session->trace));
+  }
+  marched = run_march(run, session->trace);
+  *summary = run_summary(run, marched, session->registry);
+  if (store) {
+    struct history *const *history = run_histories(run, &count);
+    TRY(store_histories(store, history, count, session->trace));
+    TRY(store_summary(store, *summary, session->trace));
+  }
+  status = marched;
+done:
+  run_free(run);
+  store_close(store);
+  return status;
+}
+
+gamut_status gamut_run_scene(struct gamut_session *session, const char *file,
+                             const struct gamut_run_request *request, char **summary)
+{
+  struct scene *scene = NULL;
+  *summary = NULL;
+  gamut_status status = begin(session);
+  if (status == GAMUT_OK)
+    status = read_scene(session, file, request, &scene);
+  if (status == GAMUT_OK)
+    status = run_and_record(session, scene, request, summary);
+  scene_free(scene);
+  return end(session, status);
+}
+
+const char *gamut_messages(const struct gamut_session *session)
+{
+  return session->messages ? session->messages : "";
+}
+
+void gamut_free(void *memory)
+{
+  free(memory);
+}

@@ -1,0 +1,64 @@
+/* For programs that embed the library: run scenes and read what came out.
+ *
+ *   struct gamut_session *session = gamut_session_new(NULL);
+ *   char *summary = NULL;
+ *   if (gamut_run_scene(session, "inputs/taylor_bar.yaml", &(struct gamut_run_request){0}, &summary))
+ *     fputs(gamut_messages(session), stderr);
+ *   gamut_free(summary);
+ *   gamut_session_free(session);
+ *
+ * Link with `pkg-config --cflags --libs gamut`. A session is for one thread at a time; several sessions
+ * may live at once, but scenes are read and plugins opened by one thread at a time. */
+#ifndef GAMUT_GAMUT_H
+#define GAMUT_GAMUT_H
+
+#include <stddef.h>
+
+#include <gamut/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define GAMUT_API __attribute__((visibility("default")))
+#else
+#define GAMUT_API
+#endif
+
+/* "0.1.0". */
+GAMUT_API const char *gamut_version(void);
+
+/* Unit database, registry of plugins, messages. plugin_path: absolute folders to look in first,
+ * separated by ':', or null. Null if there is no memory or no unit database. */
+struct gamut_session;
+GAMUT_API struct gamut_session *gamut_session_new(const char *plugin_path);
+GAMUT_API void gamut_session_free(struct gamut_session *); /* accepts null */
+
+/* All zero: the scene as it is, all processors, nothing written. */
+struct gamut_run_request {
+  const char *const *set; /* "solver.cell=0.2 mm", as --set of the command; borrowed */
+  size_t sets;
+  int threads;            /* 0: what OpenMP says */
+  const char *folder;     /* of the results, or null: nothing is written */
+  int force;              /* whether results in that folder may be replaced */
+};
+
+/* Runs a scene. *summary becomes the text of summary.json, to be given to gamut_free; it is set also
+ * where the numbers failed on the way (GAMUT_NUMERICS), null where nothing was run. Returns the status
+ * whose number is the exit code of `gamut run`. */
+GAMUT_API gamut_status gamut_run_scene(struct gamut_session *, const char *scene,
+                                       const struct gamut_run_request *, char **summary);
+/* Validates a scene, runs nothing. */
+GAMUT_API gamut_status gamut_check_scene(struct gamut_session *, const char *scene,
+                                         const struct gamut_run_request *);
+
+/* Errors and warnings of the last call, for people. Borrowed until the next call of the session. */
+GAMUT_API const char *gamut_messages(const struct gamut_session *);
+
+GAMUT_API void gamut_free(void *);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

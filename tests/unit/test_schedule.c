@@ -1,0 +1,166 @@
+/* What is live, in which order, in which sweep, stored or not. */
+#include "schedule/schedule.h"
+
+#include <string.h>
+
+#include "tests/tap.h"
+
+static const char *const phases[] = {"grid", "gather", "material", "after", "scatter"};
+
+struct plan {
+  struct trace *trace;
+  struct fields *fields;
+  struct schedule *schedule;
+};
+
+static gamut_status nothing(void *self, const struct gamut_chunk *chunk)
+{
+  (void)self;
+  (void)chunk;
+  return GAMUT_OK;
+}
+
+static struct plan make(void)
+{
+  struct plan plan = {trace_new(), fields_new(), schedule_new(phases, 5)};
+  const char *const name[] = {"velocity", "stress", "heat", "q", "temperature", "loop_a", "loop_b"};
+  for (size_t i = 0; i < sizeof name / sizeof name[0]; i++)
+    fields_add(plan.fields, name[i], GAMUT_AT_POINT, 1, "1", "", plan.trace);
+  return plan;
+}
+
+static void unmake(struct plan *plan)
+{
+  schedule_free(plan->schedule);
+  fields_free(plan->fields);
+  trace_free(plan->trace);
+}
+
+static void add(struct plan *plan, const char *name, const char *phase, enum gamut_extent extent,
+                bool essential, const struct gamut_use *uses, size_t count)
+{
+  const struct gamut_task task = {.name = name,
+                                  .phase = phase,
+                                  .extent = extent,
+                                  .uses = uses,
+                                  .use_count = count,
+                                  .essential = essential,
+                                  .run = nothing};
+  schedule_add(plan->schedule, "test", &task, plan->fields, SIZE_MAX, NULL, plan->trace);
+}
+#define USES(...) (const struct gamut_use[]){__VA_ARGS__}, \
+  sizeof((const struct gamut_use[]){__VA_ARGS__}) / sizeof(struct gamut_use)
+
+static const struct task *task_called(const struct plan *plan, const char *name, size_t *index)
+{
+  for (*index = 0; *index < schedule_tasks(plan->schedule); ++*index)
+    if (strcmp(schedule_task(plan->schedule, *index)->name, name) == 0)
+      return schedule_task(plan->schedule, *index);
+  return NULL;
+}
+
+/* The step of a solver: registered in the wrong order on purpose. */
+static void add_step(struct plan *plan)
+{
+  add(plan, "scatter", "scatter", GAMUT_PER_CHUNK, true,
+      USES({"stress", GAMUT_READ}, {"velocity", GAMUT_READ_LAST}));
+  add(plan, "leave", "scatter", GAMUT_CLOSE_BLOCK, true, NULL, 0);
+  add(plan, "material", "material", GAMUT_PER_CHUNK, false,
+      USES({"q", GAMUT_READ_IF}, {"stress", GAMUT_READ_BEGIN}, {"stress", GAMUT_WRITE},
+           {"heat", GAMUT_WRITE}));
+  add(plan, "gather", "gather", GAMUT_PER_CHUNK, true, USES({"velocity", GAMUT_WRITE}));
+  add(plan, "load", "gather", GAMUT_OPEN_BLOCK, true, NULL, 0);
+  add(plan, "grid", "grid", GAMUT_ONCE, true, NULL, 0);
+  fields_find(plan->fields, "stress")->history = true;
+}
+
+static void test_live_and_order(void)
+{
+  struct plan plan = make();
+  size_t material, scatter, gather, heating;
+  add_step(&plan);
+  add(&plan, "heating", "after", GAMUT_PER_CHUNK, false,
+      USES({"heat", GAMUT_READ}, {"temperature", GAMUT_WRITE}));
+  gamut_status status = schedule_plan(plan.schedule, plan.fields, 1, plan.trace);
+  tap_ok(status == GAMUT_OK, "a plan is made");
+  const struct task *task = task_called(&plan, "material", &material);
+  tap_ok(task->live, "material is live: %s", task->why);
+  task = task_called(&plan, "heating", &heating);
+  tap_ok(!task->live && strcmp(task->why, "nobody reads temperature") == 0, "heating is off: %s",
+         task->why);
+  task_called(&plan, "gather", &gather);
+  task_called(&plan, "scatter", &scatter);
+  tap_ok(gather < material && material < scatter && scatter < heating,
+         "order by phase, the dead last: %zu %zu %zu %zu", gather, material, scatter, heating);
+  tap_ok(schedule_sweeps(plan.schedule) == 2 && schedule_sweep(plan.schedule, 0)->once,
+         "two sweeps: the grid, then all that works on a block (%zu)",
+         schedule_sweeps(plan.schedule));
+  const struct sweep *sweep = schedule_sweep(plan.schedule, 1);
+  tap_ok(sweep->opens == 1 && sweep->chunks == 3 && sweep->closes == 1, "joined: %zu %zu %zu",
+         sweep->opens, sweep->chunks, sweep->closes);
+  tap_ok(fields_find(plan.fields, "stress")->stored, "a history is stored");
+  tap_ok(fields_find(plan.fields, "velocity")->stored, "what the next step reads is stored");
+  tap_ok(!fields_find(plan.fields, "heat")->stored, "what nobody reads later is not stored");
+  tap_ok(!fields_find(plan.fields, "temperature")->used, "a dead task's field is not used");
+  unmake(&plan);
+}
+
+static void test_wanted(void)
+{
+  struct plan plan = make();
+  size_t index;
+  add_step(&plan);
+  add(&plan, "heating", "after", GAMUT_PER_CHUNK, false,
+      USES({"heat", GAMUT_READ}, {"temperature", GAMUT_WRITE}));
+  schedule_want(plan.schedule, fields_find(plan.fields, "temperature"), "outputs");
+  schedule_plan(plan.schedule, plan.fields, 1, plan.trace);
+  const struct task *task = task_called(&plan, "heating", &index);
+  tap_ok(task->live && strstr(task->why, "outputs"), "an output brings it to life: %s", task->why);
+  tap_ok(fields_find(plan.fields, "temperature")->stored, "and its field is stored");
+  unmake(&plan);
+}
+
+static void test_read_of_what_comes_later(void)
+{
+  struct plan plan = make();
+  size_t index;
+  add_step(&plan);
+  add(&plan, "viscosity", "gather", GAMUT_PER_CHUNK, false,
+      USES({"heat", GAMUT_READ}, {"q", GAMUT_WRITE}));
+  schedule_plan(plan.schedule, plan.fields, 1, plan.trace);
+  const struct task *task = task_called(&plan, "viscosity", &index);
+  tap_ok(task->live, "material reads q, so viscosity is live");
+  tap_ok(task->use[0].access == GAMUT_READ_LAST, "it reads what the last step left");
+  tap_ok(fields_find(plan.fields, "heat")->stored, "which is therefore stored");
+  unmake(&plan);
+}
+
+static void test_faults(void)
+{
+  struct plan plan = make();
+  add(&plan, "lonely", "gather", GAMUT_PER_CHUNK, true, USES({"heat", GAMUT_READ}));
+  tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_SCENE,
+         "a field that nobody provides is an error");
+  unmake(&plan);
+  plan = make();
+  add(&plan, "one", "gather", GAMUT_PER_CHUNK, true,
+      USES({"loop_a", GAMUT_READ}, {"loop_b", GAMUT_WRITE}));
+  add(&plan, "two", "gather", GAMUT_PER_CHUNK, true,
+      USES({"loop_b", GAMUT_READ}, {"loop_a", GAMUT_WRITE}));
+  tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_PLUGIN,
+         "tasks that wait for each other are an error");
+  const struct gamut_task stray = {.name = "stray", .phase = "nowhere", .run = nothing};
+  tap_ok(schedule_add(plan.schedule, "test", &stray, plan.fields, SIZE_MAX, NULL, plan.trace) ==
+             GAMUT_PLUGIN,
+         "an unknown phase is an error");
+  unmake(&plan);
+}
+
+int main(void)
+{
+  test_live_and_order();
+  test_wanted();
+  test_read_of_what_comes_later();
+  test_faults();
+  return tap_done();
+}
