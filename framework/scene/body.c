@@ -152,8 +152,9 @@ void bodies_read(struct reading *reading, const struct tree *root)
   struct scene *scene = reading->scene;
   const struct tree *node = tree_get(root, "bodies");
   if (!node) {
-    blame_missing(reading, root, "bodies", "bodies: {NAME: {material:, shape:, ...}}",
-                  "'bodies' is missing");
+    if (!is_card(root))
+      blame_missing(reading, root, "bodies", "bodies: {NAME: {material:, shape:, ...}}",
+                    "'bodies' is missing");
     return;
   }
   if (!expect_mapping(reading, node, "'bodies'"))

@@ -103,14 +103,23 @@ static void geometry_peek(struct reading *reading, const struct tree *node)
   reading->axisymmetric = strcmp(given->text, "axisymmetric") == 0;
 }
 
+bool is_card(const struct tree *root)
+{
+  static const char *const more[] = {"solver",     "bodies",  "effects",
+                                     "quantities", "outputs", "uncertainty"};
+  bool card = tree_get(root, "materials") != NULL;
+  for (size_t i = 0; i < COUNT_OF(more); i++)
+    card = card && !tree_get(root, more[i]);
+  return card;
+}
+
 void solver_read(struct reading *reading, const struct tree *root)
 {
   const struct tree *node = tree_get(root, "solver");
   struct scene *scene = reading->scene;
   if (!node) {
-    blame_missing(reading, root, "solver", "solver: {model: NAME, ...}",
-                  tree_get(root, "bodies") ? "'solver' is missing"
-                                           : "'solver' is missing: this is a card for 'include:'");
+    if (!is_card(root))
+      blame_missing(reading, root, "solver", "solver: {model: NAME, ...}", "'solver' is missing");
     return;
   }
   geometry_peek(reading, node);

@@ -127,6 +127,8 @@ void instance_read(struct reading *, enum gamut_kind, const char *name, const st
 /* Only the descriptor that `node` names; null (no fault) if it names none that is installed. */
 const struct descriptor *instance_peek(const struct reading *, enum gamut_kind,
                                        const struct tree *);
+/* A card: materials for other scenes to include, nothing that could run. */
+bool is_card(const struct tree *root);
 void solver_read(struct reading *, const struct tree *root);
 void materials_read(struct reading *, const struct tree *root);
 void material_needs(struct reading *); /* after effects: parameters that they ask of materials */

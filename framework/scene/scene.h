@@ -18,7 +18,8 @@
  *
  * A real parameter may be random: {mean: 90 MPa, cv: 0.1} or {mean:, sd:, distribution:, truncate:}; or
  * {distribution: uniform, lower:, upper:}. A run without a study takes the mean and says so.
- * Units are required where a dimension is due. A card is a scene with only gamut and materials. */
+ * Units are required where a dimension is due. A card is a scene with only gamut and materials (title
+ * and include may be there); it reads well, with solver.descriptor null and no bodies. */
 #ifndef GAMUT_SCENE_ROOM_H
 #define GAMUT_SCENE_ROOM_H
 
@@ -81,7 +82,7 @@ struct shape {
   double lower[3], upper[3];     /* box; unbounded (-inf, inf) in directions a geometry lacks */
   double centre[3];              /* sphere; centre of a cylinder's base */
   double radius, length;         /* cylinder: from the base along +axis; an axisymmetric scene has
-                                    axis y and radius along x */
+                                    axis y and radius along x; in plane strain axis z, length inf */
   int axis;
 };
 bool shape_contains(const struct shape *, const double x[3]); /* closed set */

@@ -146,7 +146,8 @@ static void test_keys(void)
       "did you mean 'every'?");
   bad(GOOD "effects: {w: {model: floor}}\n", "(effects.w.plane)",
       "'plane' is missing in effect 'floor'", "keys point, normal");
-  bad("gamut: 1\n", "error", "'solver' is missing", "card for 'include:'");
+  bad("gamut: 1\n", "error", "'solver' is missing", "solver: {model: NAME, ...}");
+  scene_free(good("a card", "gamut: 1\n" METAL));
   bad(HEAD METAL "bodies: {b: {material: copper}}\n", "(bodies.b.shape)", "'shape' is missing",
       "cylinder");
 }
