@@ -17,8 +17,8 @@
 #include <stdint.h>
 #include <string.h>
 
-/* For the functions that kernels call in their loops: a call that is not inlined keeps the loop from
- * vectorising. */
+/* For the functions that kernels call in their loops: a call that is not inlined keeps the loop
+ * from vectorising. */
 #if defined(__GNUC__)
 #define GAMUT_INLINE static inline __attribute__((always_inline))
 #else

@@ -3,8 +3,8 @@
 static const double guard = 0.05; /* the least D at which the Hugoniot is used */
 static const double close = 0.1;  /* D below this is noted */
 
-/* Coefficients at a point. S2 = S3 = 0 and known to be so where `curved` is false, a constant at each
- * call: the same bits in fewer operations. */
+/* Coefficients at a point. S2 = S3 = 0 and known to be so where `curved` is false, a constant at
+ * each call: the same bits in fewer operations. */
 struct hugoniot {
   bool curved;
   double S1, S2, S3, gamma0, a, K;
@@ -30,8 +30,8 @@ GAMUT_INLINE double denominator(const struct hugoniot *h, double mu, double *slo
   return 1.0 - mu * (h->S1 - 1.0 + (h->curved ? x * (h->S2 + h->S3 * x) : 0.0));
 }
 
-/* The least D on the way from 0 to mu, where D is `here`. D (1 - x) = 1 - S1 x - S2 x^2 - S3 x^3 can
- * have a minimum on the way, and behind a pole it is zero or negative there. */
+/* The least D on the way from 0 to mu, where D is `here`. D (1 - x) = 1 - S1 x - S2 x^2 - S3 x^3
+ * can have a minimum on the way, and behind a pole it is zero or negative there. */
 GAMUT_INLINE double least_denominator(const struct hugoniot *h, double mu, double here)
 {
   double under = h->S2 * h->S2 - 3.0 * h->S1 * h->S3;
@@ -46,7 +46,7 @@ GAMUT_INLINE double least_denominator(const struct hugoniot *h, double mu, doubl
 
 /* The pressure without the energy's part, over K, and its slope by mu. */
 GAMUT_INLINE double cold(const struct hugoniot *h, double mu, double D, double D_slope,
-                          double *slope)
+                         double *slope)
 {
   double N = 1.0 + mu * (1.0 - 0.5 * h->gamma0 - 0.5 * h->a * mu);
   double N_slope = 1.0 - 0.5 * h->gamma0 - h->a * mu, square = D * D;
@@ -113,7 +113,7 @@ static void extrapolate(const struct mie_gruneisen *b, size_t i)
   double last = guarded_compression(&h, mu), D = denominator(&h, last, &D_slope);
   double value = cold(&h, last, D, D_slope, &slope) + slope * (mu - last);
   double p = h.K * value + (h.gamma0 + h.a * mu) * e;
-  finish(b, i, stop ? 0.0 : p, h.K * slope + h.a * e);
+  finish(b, i, stop ? 0.0 : p, stop ? h.K : h.K * slope + h.a * e);
   b->pressure[i] = stop ? (double)NAN : b->pressure[i];
   GAMUT_FLAG(b, i, !stop, MIE_GRUNEISEN_EXTRAPOLATED);
   GAMUT_FLAG(b, i, stop, MIE_GRUNEISEN_BEYOND_POLE);
@@ -158,7 +158,9 @@ GAMUT_INLINE struct terms terms_of(const struct mie_gruneisen *b, size_t i)
   bool beyond = least_denominator(&h, squeezed, D) <= guard;
   double f = h.K * (compressed ? cold(&h, squeezed, D, D_slope, &slope) : mu);
   bool cut = f + (h.gamma0 + h.a * mu) * e < b->tension_limit[i];
-  return (struct terms){.scale = beyond ? (double)NAN : cut ? 0.0 : 1.0,
+  return (struct terms){.scale = beyond ? (double)NAN
+                                 : cut  ? 0.0
+                                        : 1.0,
                         .C0 = b->C0[i],
                         .rho0 = b->reference_density[i],
                         .mu = mu,

@@ -1,7 +1,7 @@
 #include "johnson_cook.gamut.h"
 
-/* The three factors at one point, with what their slopes and derivatives need. Arguments are compared
- * such that NaN goes through to the flow stress. */
+/* The three factors at one point, with what their slopes and derivatives need. Arguments are
+ * compared such that NaN goes through to the flow stress. */
 struct factors {
   double strain, log_strain, power; /* plastic strain, its logarithm, plastic_strain^n */
   double rate, log_rate;            /* r, ln r */
@@ -10,7 +10,7 @@ struct factors {
 };
 
 GAMUT_INLINE struct factors factors_of(double n, double m, double strain, double rate, double room,
-                                        double melt, double temperature)
+                                       double melt, double temperature)
 {
   const double least = 1e-300; /* keeps logarithms and quotients finite */
   struct factors f;
@@ -41,8 +41,7 @@ GAMUT_INLINE void law(const struct johnson_cook *b, size_t i, double plastic_str
   b->flow_stress_slope_plastic_strain_rate[i] =
       f.rate <= 1.0 ? 0.0 : hardening * softening * C / (f.rate * b->reference_rate[i]);
   double slope = f.heat / f.warmth_positive * m / (b->T_melt[i] - b->T_room[i]);
-  b->flow_stress_slope_temperature[i] =
-      f.warmth >= 1.0 ? 0.0 : -hardening * rate_factor * slope;
+  b->flow_stress_slope_temperature[i] = f.warmth >= 1.0 ? 0.0 : -hardening * rate_factor * slope;
   GAMUT_FLAG(b, i, f.warmth >= 1.0, JOHNSON_COOK_MELTED);
   GAMUT_FLAG(b, i, strain < 0.0, JOHNSON_COOK_NEGATIVE_PLASTIC_STRAIN);
   GAMUT_FLAG(b, i, !(stress >= 0.0), JOHNSON_COOK_NOT_FINITE);
@@ -85,10 +84,9 @@ struct terms {
 
 GAMUT_INLINE struct terms terms_of(const struct johnson_cook *b, size_t i)
 {
-  struct factors f =
-      factors_of(b->n[i], b->m[i], b->plastic_strain[i],
-                 b->plastic_strain_rate[i] / b->reference_rate[i], b->T_room[i], b->T_melt[i],
-                 b->temperature[i]);
+  struct factors f = factors_of(b->n[i], b->m[i], b->plastic_strain[i],
+                                b->plastic_strain_rate[i] / b->reference_rate[i], b->T_room[i],
+                                b->T_melt[i], b->temperature[i]);
   return (struct terms){.h = f.power,
                         .hl = f.power * f.log_strain,
                         .hll = f.power * f.log_strain * f.log_strain,
