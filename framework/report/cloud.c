@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Tiles overlap a little, so that no background shines through. */
-static const double overlap = 1.12;
+/* A disc reaches three quarters of the way to the third nearest neighbour: discs of a lattice then cover
+ * the plane, also where it is stretched two to one or sheared, and stand over the surface by a quarter
+ * of a spacing only. */
+enum { NEIGHBOURS = 3 };
+static const double reach = 0.75;
 
 static void bounds(const struct result_body *body, double lower[3], double upper[3])
 {
@@ -38,7 +41,7 @@ struct view view_of(const struct result_frame *frame)
 
 /* The points to show: all, or those of a slice one layer thick. A body cut at a plane of symmetry shows
  * the layer beside that plane, a whole one the two layers in its middle. */
-static size_t choose(const struct result_body *body, const struct view *view, struct tile *tile)
+static size_t choose(const struct result_body *body, const struct view *view, struct disc *disc)
 {
   double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY};
   double middle = 0, half = INFINITY;
@@ -59,7 +62,7 @@ static size_t choose(const struct result_body *body, const struct view *view, st
       continue;
     if (view->normal >= 0 && !(fabs(x[view->normal] - middle) <= half))
       continue;
-    tile[count++] = (struct tile){.x = x[view->x], .y = x[view->y],
+    disc[count++] = (struct disc){.x = x[view->x], .y = x[view->y],
                                   .value = body->value ? body->value[i] : NAN};
   }
   return count;
@@ -69,7 +72,7 @@ static size_t choose(const struct result_body *body, const struct view *view, st
 struct bins {
   double x, y, size;
   size_t across, up;
-  size_t *head, *next; /* lists of tiles, index + 1; 0 ends */
+  size_t *head, *next; /* lists of discs, index + 1; 0 ends */
 };
 
 static size_t bin_of(double x, double origin, double size, size_t count)
@@ -89,49 +92,59 @@ static bool bins_make(struct bins *bins, const struct cloud *cloud, double size)
   if (!bins->head || !bins->next)
     return false;
   for (size_t i = 0; i < cloud->count; ++i) {
-    size_t bin = bin_of(cloud->tile[i].x, bins->x, size, bins->across) +
-                 bins->across * bin_of(cloud->tile[i].y, bins->y, size, bins->up);
+    size_t bin = bin_of(cloud->disc[i].x, bins->x, size, bins->across) +
+                 bins->across * bin_of(cloud->disc[i].y, bins->y, size, bins->up);
     bins->next[i] = bins->head[bin];
     bins->head[bin] = i + 1;
   }
   return true;
 }
 
-/* Half the distance to the nearest neighbour sideways, and up or down. */
-static void measure(struct cloud *cloud, size_t index, const struct bins *bins, double otherwise)
+/* Keeps the smallest distances in order. */
+static void insert(double nearest[NEIGHBOURS], double distance)
 {
-  struct tile *own = &cloud->tile[index];
-  double across = INFINITY, up = INFINITY;
+  for (int k = 0; k < NEIGHBOURS; ++k) {
+    if (distance < nearest[k]) {
+      double larger = nearest[k];
+      nearest[k] = distance;
+      distance = larger;
+    }
+  }
+}
+
+/* Points closer than `twin` are one: two layers of a slice lie upon each other. */
+static double neighbour_distance(const struct cloud *cloud, size_t index, const struct bins *bins,
+                                 double twin)
+{
+  const struct disc *own = &cloud->disc[index];
+  double nearest[NEIGHBOURS];
   size_t column = bin_of(own->x, bins->x, bins->size, bins->across);
   size_t row = bin_of(own->y, bins->y, bins->size, bins->up);
+  for (int k = 0; k < NEIGHBOURS; ++k)
+    nearest[k] = INFINITY;
   for (size_t r = row ? row - 1 : 0; r <= row + 1 && r < bins->up; ++r) {
     for (size_t c = column ? column - 1 : 0; c <= column + 1 && c < bins->across; ++c) {
       for (size_t j = bins->head[c + bins->across * r]; j; j = bins->next[j - 1]) {
-        double x = fabs(cloud->tile[j - 1].x - own->x), y = fabs(cloud->tile[j - 1].y - own->y);
-        if (y <= 0.5 * x && x > 0)
-          across = fmin(across, x);
-        if (x <= 0.5 * y && y > 0)
-          up = fmin(up, y);
+        double distance = hypot(cloud->disc[j - 1].x - own->x, cloud->disc[j - 1].y - own->y);
+        if (distance > twin)
+          insert(nearest, distance);
       }
     }
   }
-  if (!isfinite(across))
-    across = isfinite(up) ? up : 2 * otherwise;
-  if (!isfinite(up))
-    up = across;
-  own->half_x = 0.5 * overlap * across;
-  own->half_y = 0.5 * overlap * up;
+  return nearest[NEIGHBOURS - 1];
 }
 
-/* Coincident layers of a slice and points that fly off must not shrink or blow up a tile. */
-static bool size_tiles(struct cloud *cloud)
+static bool size_discs(struct cloud *cloud)
 {
   struct bins bins;
   double width = cloud->upper[0] - cloud->lower[0], height = cloud->upper[1] - cloud->lower[1];
   double spacing = sqrt(fmax(width, 1e-12) * fmax(height, 1e-12) / (double)cloud->count);
   bool good = bins_make(&bins, cloud, 2.5 * spacing);
-  for (size_t i = 0; i < cloud->count && good; ++i)
-    measure(cloud, i, &bins, 0.5 * spacing);
+  for (size_t i = 0; i < cloud->count && good; ++i) {
+    double distance = neighbour_distance(cloud, i, &bins, 0.05 * spacing);
+    /* a point that has flown off is no larger than the others */
+    cloud->disc[i].radius = reach * fmin(distance, 1.5 * spacing);
+  }
   free(bins.head);
   free(bins.next);
   return good;
@@ -140,19 +153,19 @@ static bool size_tiles(struct cloud *cloud)
 bool cloud_make(const struct result_body *body, const struct view *view, struct cloud *cloud)
 {
   *cloud = (struct cloud){.lower = {INFINITY, INFINITY}, .upper = {-INFINITY, -INFINITY}};
-  cloud->tile = calloc(body->count + 1, sizeof *cloud->tile);
-  if (!cloud->tile)
+  cloud->disc = calloc(body->count + 1, sizeof *cloud->disc);
+  if (!cloud->disc)
     return false;
-  cloud->count = choose(body, view, cloud->tile);
+  cloud->count = choose(body, view, cloud->disc);
   for (int pass = 0; pass < 2; ++pass) {
     for (size_t i = 0; i < cloud->count; ++i) {
-      const struct tile *t = &cloud->tile[i];
-      cloud->lower[0] = fmin(cloud->lower[0], t->x - t->half_x);
-      cloud->upper[0] = fmax(cloud->upper[0], t->x + t->half_x);
-      cloud->lower[1] = fmin(cloud->lower[1], t->y - t->half_y);
-      cloud->upper[1] = fmax(cloud->upper[1], t->y + t->half_y);
+      const struct disc *t = &cloud->disc[i];
+      cloud->lower[0] = fmin(cloud->lower[0], t->x - t->radius);
+      cloud->upper[0] = fmax(cloud->upper[0], t->x + t->radius);
+      cloud->lower[1] = fmin(cloud->lower[1], t->y - t->radius);
+      cloud->upper[1] = fmax(cloud->upper[1], t->y + t->radius);
     }
-    if (pass == 0 && cloud->count > 0 && !size_tiles(cloud))
+    if (pass == 0 && cloud->count > 0 && !size_discs(cloud))
       return false;
   }
   return true;
@@ -160,5 +173,5 @@ bool cloud_make(const struct result_body *body, const struct view *view, struct 
 
 void cloud_free(struct cloud *cloud)
 {
-  free(cloud->tile);
+  free(cloud->disc);
 }

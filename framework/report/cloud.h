@@ -1,4 +1,4 @@
-/* Points of a body in the plane of a picture, each with the size of the tile that it fills. */
+/* Points of a body in the plane of a picture, each with the radius of the disc that it fills. */
 #ifndef GAMUT_CLOUD_H
 #define GAMUT_CLOUD_H
 
@@ -7,11 +7,11 @@
 
 #include "store/result.h"
 
-struct tile { double x, y, half_x, half_y, value; };
+struct disc { double x, y, radius, value; };
 struct cloud {
-  struct tile *tile;
+  struct disc *disc;
   size_t count;
-  double lower[2], upper[2]; /* with the tiles */
+  double lower[2], upper[2]; /* with the discs */
 };
 
 /* Which coordinates a picture shows: for bodies in space, the long direction and another one across a
@@ -19,7 +19,7 @@ struct cloud {
 struct view { int x, y, normal; /* normal -1: no slice */ };
 struct view view_of(const struct result_frame *);
 
-/* False when out of memory. A body without the field has tiles with the value NAN. */
+/* False when out of memory. A body without the field has discs with the value NAN. */
 bool cloud_make(const struct result_body *, const struct view *, struct cloud *);
 void cloud_free(struct cloud *);
 

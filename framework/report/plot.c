@@ -57,7 +57,7 @@ void plot_script(FILE *script, const char *name, int width, int height)
           "set encoding utf8\n"
           "set terminal pngcairo noenhanced size %d,%d font 'Sans,13'\n"
           "set output '%s.png'\n"
-          "set grid linecolor rgb '#d0d0d0'\n"
+          "set grid linetype 1 linewidth 0.7 linecolor rgb '#dddddd'\n"
           "set border linecolor rgb '#404040'\n"
           "set tics nomirror\n"
           "set datafile missing NaN\n",

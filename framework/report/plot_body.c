@@ -32,7 +32,7 @@ static gamut_status make_clouds(struct drawing *d)
       d->upper[k] = fmax(d->upper[k], d->cloud[b].upper[k]);
     }
     for (size_t i = 0; i < d->cloud[b].count; ++i) {
-      double value = d->cloud[b].tile[i].value;
+      double value = d->cloud[b].disc[i].value;
       if (isfinite(value)) {
         d->least = fmin(d->least, value);
         d->most = fmax(d->most, value);
@@ -50,14 +50,14 @@ static gamut_status write_data(const struct drawing *d)
   FILE *data = plot_file(d->plot, d->name, ".dat");
   if (!data)
     return GAMUT_OUTPUT;
-  fprintf(data, "# %s [m]  %s [m]  half width [m]  half height [m]  %s [%s]\n",
+  fprintf(data, "# %s [m]  %s [m]  radius [m]  %s [%s]\n",
           axis_name[d->view.x], axis_name[d->view.y], d->frame->field ? d->frame->field : "no field",
           d->frame->unit ? d->frame->unit : "1");
   for (size_t b = 0; b < d->frame->bodies; ++b) {
     fprintf(data, "%s# %s\n", b ? "\n\n" : "", d->frame->body[b].name);
     for (size_t i = 0; i < d->cloud[b].count; ++i) {
-      const struct tile *t = &d->cloud[b].tile[i];
-      fprintf(data, "%.7g %.7g %.4g %.4g %.7g\n", t->x, t->y, t->half_x, t->half_y, t->value);
+      const struct disc *t = &d->cloud[b].disc[i];
+      fprintf(data, "%.7g %.7g %.4g %.7g\n", t->x, t->y, t->radius, t->value);
     }
   }
   return plot_file_close(d->plot, data, d->name);
@@ -73,10 +73,17 @@ static void write_title(const struct drawing *d, FILE *script)
   fputc('\n', script);
 }
 
-/* True where the field has one value at least; then the colour bar is set up. */
+/* "stress, von Mises" */
+static void field_name(const struct result_frame *frame, char *name, size_t size)
+{
+  snprintf(name, size, "%s%s%s", frame->field ? frame->field : "", frame->reduced ? ", " : "",
+           frame->reduced ? frame->reduced : "");
+}
+
+/* Sets up the colour bar, where there is a value; returns the factor to its unit. */
 static double write_colours(const struct drawing *d, FILE *script)
 {
-  char unit[40], label[200];
+  char unit[40], name[160], label[200];
   if (!(d->least <= d->most) || !d->frame->field) {
     fprintf(script, "unset colorbox\n");
     return 1;
@@ -85,26 +92,28 @@ static double write_colours(const struct drawing *d, FILE *script)
                                 d->frame->unit ? d->frame->unit : "1", unit, sizeof unit);
   double low = d->least * factor, high = d->most * factor;
   double margin = high - low > 1e-9 * fmax(fabs(low), fabs(high)) ? 0 : fmax(fabs(low), 1) * 0.5;
-  fprintf(script, "%sset cbrange [%.6g:%.6g]\nset cblabel ", palette, low - margin, high + margin);
-  plot_text(script, plot_label(d->frame->field, unit, label, sizeof label));
+  fprintf(script, "%sset format cb '%%g'\nset cbrange [%.6g:%.6g]\n"
+                  "set cblabel ", palette, low - margin, high + margin);
+  field_name(d->frame, name, sizeof name);
+  plot_text(script, plot_label(name, unit, label, sizeof label));
   fputc('\n', script);
   return factor;
 }
 
-static void write_tiles(const struct drawing *d, FILE *script, double length, double factor)
+static void write_discs(const struct drawing *d, FILE *script, double length, double factor)
 {
   const char *lead = "plot";
   for (size_t b = 0; b < d->frame->bodies; ++b) {
     if (d->cloud[b].count == 0)
       continue;
     for (int side = 1; side >= (d->plot->axisymmetric ? -1 : 1); side -= 2) {
-      fprintf(script, "%s '%s.dat' index %zu using (%d*$1*%g):($2*%g):($3*%g):($4*%g)", lead,
-              d->name, b, side, length, length, length, length);
+      fprintf(script, "%s '%s.dat' index %zu using (%d*$1*%g):($2*%g):($3*%g)", lead,
+              d->name, b, side, length, length, length);
       if (d->frame->body[b].value)
-        fprintf(script, ":($5*%g) with boxxyerror fillstyle solid 1.0 noborder linecolor palette",
+        fprintf(script, ":($4*%g) with circles fillstyle solid 1.0 noborder linecolor palette",
                 factor);
       else
-        fprintf(script, " with boxxyerror fillstyle solid 1.0 noborder linecolor rgb '#b0b0b0'");
+        fprintf(script, " with circles fillstyle solid 1.0 noborder linecolor rgb '#b0b0b0'");
       fprintf(script, " notitle");
       lead = ", \\\n    ";
     }
@@ -149,7 +158,7 @@ static gamut_status write_plane(struct drawing *d)
   write_title(d, script);
   write_axes(d, script, length, unit);
   double factor = write_colours(d, script);
-  write_tiles(d, script, length, factor);
+  write_discs(d, script, length, factor);
   fprintf(script, "unset output\n");
   return plot_file_close(d->plot, script, d->name);
 }
@@ -158,7 +167,7 @@ static gamut_status write_plane(struct drawing *d)
 static gamut_status write_line(struct drawing *d)
 {
   char unit[40], field_unit[40], label[200];
-  const char *field = d->frame->field ? d->frame->field : "";
+  char field[160];
   double length =
       readable_unit(fmax(fabs(d->lower[0]), fabs(d->upper[0])), "m", unit, sizeof unit);
   double factor = readable_unit(fmax(fabs(d->least), fabs(d->most)),
@@ -166,6 +175,7 @@ static gamut_status write_line(struct drawing *d)
                                 sizeof field_unit);
   const char *lead = "plot";
   FILE *script = plot_file(d->plot, d->name, ".gp");
+  field_name(d->frame, field, sizeof field);
   if (!script)
     return GAMUT_OUTPUT;
   plot_script(script, d->name, 1200, 800);
@@ -178,7 +188,7 @@ static gamut_status write_line(struct drawing *d)
   for (size_t b = 0; b < d->frame->bodies; ++b) {
     if (!d->frame->body[b].value || d->cloud[b].count == 0)
       continue;
-    fprintf(script, "%s '%s.dat' index %zu using ($1*%g):($5*%g) with points pointtype 7 "
+    fprintf(script, "%s '%s.dat' index %zu using ($1*%g):($4*%g) with points pointtype 7 "
                     "pointsize 0.6 title ", lead, d->name, b, length, factor);
     plot_text(script, d->frame->body[b].name);
     lead = ", \\\n    ";

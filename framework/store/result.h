@@ -28,7 +28,8 @@ struct result_frame {
   uint64_t step;
   struct result_body *body;
   size_t bodies;
-  char *field, *unit; /* of `value`, as found: "velocity_y", "velocity" for its magnitude */
+  char *field, *unit;  /* of `value`: "velocity_y", "velocity" for its magnitude; null: no fields */
+  const char *reduced; /* "magnitude", "von Mises", "norm"; null for a scalar or a component */
 };
 /* Reads a frame and one field as a scalar: a component ("velocity_y", "stress_xx"), the magnitude of a
  * vector ("velocity"), von Mises of a symmetric tensor ("stress"), Frobenius norm of a tensor. With

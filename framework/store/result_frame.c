@@ -147,6 +147,15 @@ static bool read_body(hid_t frame, const char *name, const struct choice *choice
   return good;
 }
 
+/* What becomes of a field of several components that is asked for as a whole. */
+static const char *reduction_of(hid_t dataset)
+{
+  char *list = hdf5_read_text_attribute(dataset, "components");
+  const char *reduced = !list ? NULL : strcmp(list, "x y z") == 0 ? "magnitude" : "norm";
+  free(list);
+  return H5Aexists(dataset, "symmetric") > 0 ? "von Mises" : reduced;
+}
+
 /* The choice is made on the first body that has fields; the others follow it. */
 static gamut_status find_field(hid_t frame, size_t bodies, const char *field, struct trace *trace,
                                struct result_frame *made)
@@ -166,6 +175,7 @@ static gamut_status find_field(hid_t frame, size_t bodies, const char *field, st
     if (count > 0 && status == GAMUT_OK) {
       hid_t dataset = H5Dopen2(group, choice.dataset, H5P_DEFAULT);
       made->unit = hdf5_read_text_attribute(dataset, "unit");
+      made->reduced = choice.column < 0 ? reduction_of(dataset) : NULL;
       made->field = strdup(field);
       H5Dclose(dataset);
     }
