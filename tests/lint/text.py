@@ -8,11 +8,13 @@ WIDTH = 100
 LENGTH = 400
 CODE = (".c", ".h")
 TEXT = CODE + (".py", ".sh", ".am", ".ac", ".m4", ".mk", ".inc", ".yaml")
-FOLDERS = ("framework", "plugins", "inputs", "tests", "m4", "docs")
+FOLDERS = ("framework", "plugins", "inputs", "tests", "docs")
+OWN_MACROS = "m4/gamut.m4"
 # Files that are wrong on purpose.
 BROKEN = ("tests/bad_inputs/", "tests/bad_plugins/")
 
 PLACES = re.compile(r"(?<![\w.$})~-])/(home|root|tmp|work|Users|opt|mnt|usr/local|usr/share)/")
+TEMPORARY = re.compile(r"/tmp/[\w-]*XXXXXX")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK|stub)\b")
 
 
@@ -21,7 +23,8 @@ def lines(path):
 
 
 def sound(suffixes):
-    return [p for p in tap.files(*FOLDERS, suffixes=suffixes) if not p.startswith(BROKEN)]
+    return [p for p in tap.files(*FOLDERS, suffixes=suffixes) + [OWN_MACROS]
+            if p.endswith(suffixes) and not p.startswith(BROKEN)]
 
 
 def bad_lines(suffixes, wrong):
@@ -47,7 +50,8 @@ def duplicate_keys(loader_class, yaml):
 
 
 def yaml_findings(yaml):
-    strict = duplicate_keys(yaml.SafeLoader, yaml)
+    # libyaml's own reader, as gamut uses it; PyYAML's refuses "[strength?]".
+    strict = duplicate_keys(yaml.CSafeLoader, yaml)
     for path in sound((".yaml",)):
         try:
             yaml.load(tap.read(path), Loader=strict)
@@ -60,7 +64,8 @@ tap.check("no blanks at the end of a line", bad_lines(TEXT, lambda s: s != s.rst
 tap.check("no tabs in C and YAML", bad_lines(CODE + (".yaml",), lambda s: "\t" in s))
 tap.check("sources are ASCII", bad_lines(CODE, lambda s: not s.isascii()))
 tap.check("no path of one machine",
-          bad_lines(TEXT + (".md",), lambda s: PLACES.search(s) and "PLACES" not in s))
+          bad_lines(TEXT + (".md",), lambda s: PLACES.search(TEMPORARY.sub("", s))
+                    and "PLACES" not in s))
 tap.check("nothing left unfinished",
           bad_lines(CODE + (".yaml",), lambda s: UNFINISHED.search(s)))
 long_files = [f"{p}: {n} lines" for p in sound(CODE + (".py", ".sh"))
