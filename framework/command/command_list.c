@@ -64,7 +64,8 @@ static gamut_status list_json(const struct registry *registry, struct trace *tra
   int failed = json_dumpf(list, stdout, JSON_INDENT(2));
   json_decref(list);
   putchar('\n');
-  return failed ? trace_fail(trace, GAMUT_INTERNAL, "the list cannot be written as JSON") : GAMUT_OK;
+  return failed ? trace_fail(trace, GAMUT_INTERNAL, "the list cannot be written as JSON")
+                : GAMUT_OK;
 }
 
 gamut_status command_list(struct command *command)

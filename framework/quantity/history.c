@@ -10,7 +10,8 @@
 
 enum { SAMPLES_BY_DEFAULT = 500 };
 
-/* Multiples of `every` and the end differ by rounding; closer than this share of `every` they are one. */
+/* Multiples of `every` and the end differ by rounding; closer than this share of `every` they are
+ * one. */
 static const double same_sample = 1e-6;
 
 /* "velocity_y" has the unit of the field "velocity". */

@@ -7,25 +7,29 @@
 #include "error/error.h"
 #include "scene/scene.h"
 
-/* A recorded history. Times never change the step: samples lie at multiples of `every` (and at 0 and
- * the end), interpolated linearly between the steps around them. */
+/* A recorded history. Times never change the step: samples lie at multiples of `every` (and at 0
+ * and the end), interpolated linearly between the steps around them. */
 struct history {
   const struct quantity *quantity;
-  const char *unit;              /* of the measure */
-  const char *axis, *axis_unit;  /* "time", "s"; the run sets them where its axis is another */
+  const char *unit;             /* of the measure */
+  const char *axis, *axis_unit; /* "time", "s"; the run sets them where its axis is another */
   double every;
-  double *time, *value; size_t count, capacity;
-  double last_time, last_value; bool has_last;
+  double *time, *value;
+  size_t count, capacity;
+  double last_time, last_value;
+  bool has_last;
 };
-/* Null when the memory does not suffice for the samples. The caller may set unit, axis, axis_unit. */
+/* Null when the memory does not suffice for the samples. The caller may set unit, axis, axis_unit.
+ */
 struct history *history_new(const struct quantity *, double end);
 void history_free(struct history *);
-/* Tells the value now; called at the start and after every step, in order of time. No allocation. */
+/* Tells the value now; called at the start and after every step, in order of time. No allocation.
+ */
 void history_tell(struct history *, double time, double value, bool final);
 
-/* The value of a reduction over a history, with its unit (the measure's, s, or unit/s). False with a
- * reason when it has none (level never crossed, empty window, values that are not finite). The history
- * is taken as straight lines between its samples; a window is cut to what was recorded. */
+/* The value of a reduction over a history, with its unit (the measure's, s, or unit/s). False with
+ * a reason when it has none (level never crossed, empty window, values that are not finite). The
+ * history is taken as straight lines between its samples; a window is cut to what was recorded. */
 bool reduction_value(const struct reduction *, const struct history *, double *value, char *unit,
                      size_t unit_size, char *why, size_t size);
 

@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The part of a history inside a window: the samples between its edges, and the edges themselves with
- * interpolated values. Point 0 is the lower edge, point count - 1 the upper one. */
+/* The part of a history inside a window: the samples between its edges, and the edges themselves
+ * with interpolated values. Point 0 is the lower edge, point count - 1 the upper one. */
 struct window {
   const struct history *history;
   double from, to;

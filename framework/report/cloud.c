@@ -5,9 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A disc reaches three quarters of the way to the third nearest neighbour: discs of a lattice then cover
- * the plane, also where it is stretched two to one or sheared, and stand over the surface by a quarter
- * of a spacing only. */
+/* A disc reaches three quarters of the way to the third nearest neighbour: discs of a lattice then
+ * cover the plane, also where it is stretched two to one or sheared, and stand over the surface by
+ * a quarter of a spacing only. */
 enum { NEIGHBOURS = 3 };
 static const double reach = 0.75;
 
@@ -39,8 +39,8 @@ struct view view_of(const struct result_frame *frame)
   return along_z ? (struct view){0, 2, 1} : (struct view){0, 1, 2};
 }
 
-/* The points to show: all, or those of a slice one layer thick. A body cut at a plane of symmetry shows
- * the layer beside that plane, a whole one the two layers in its middle. */
+/* The points to show: all, or those of a slice one layer thick. A body cut at a plane of symmetry
+ * shows the layer beside that plane, a whole one the two layers in its middle. */
 static size_t choose(const struct result_body *body, const struct view *view, struct disc *disc)
 {
   double lower[3] = {INFINITY, INFINITY, INFINITY}, upper[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -62,8 +62,8 @@ static size_t choose(const struct result_body *body, const struct view *view, st
       continue;
     if (view->normal >= 0 && !(fabs(x[view->normal] - middle) <= half))
       continue;
-    disc[count++] = (struct disc){.x = x[view->x], .y = x[view->y],
-                                  .value = body->value ? body->value[i] : NAN};
+    disc[count++] = (struct disc){
+        .x = x[view->x], .y = x[view->y], .value = body->value ? body->value[i] : NAN};
   }
   return count;
 }

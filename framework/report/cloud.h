@@ -7,16 +7,20 @@
 
 #include "store/result.h"
 
-struct disc { double x, y, radius, value; };
+struct disc {
+  double x, y, radius, value;
+};
 struct cloud {
   struct disc *disc;
   size_t count;
   double lower[2], upper[2]; /* with the discs */
 };
 
-/* Which coordinates a picture shows: for bodies in space, the long direction and another one across a
- * slice through the middle. */
-struct view { int x, y, normal; /* normal -1: no slice */ };
+/* Which coordinates a picture shows: for bodies in space, the long direction and another one across
+ * a slice through the middle. */
+struct view {
+  int x, y, normal; /* normal -1: no slice */
+};
 struct view view_of(const struct result_frame *);
 
 /* False when out of memory. A body without the field has discs with the value NAN. */

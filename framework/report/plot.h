@@ -14,7 +14,7 @@ struct plot {
   char *title;
   bool axisymmetric;
   struct trace *trace;
-  char **name;     /* of the pictures, without ".png"; each has a script NAME.gp */
+  char **name; /* of the pictures, without ".png"; each has a script NAME.gp */
   size_t count, room;
 };
 

@@ -6,7 +6,8 @@
 #include "report/plot.h"
 #include "report/readable.h"
 
-/* Dark blue over green to yellow: grows steadily in brightness, also in print and to the colour-blind. */
+/* Dark blue over green to yellow: grows steadily in brightness, also in print and to the
+ * colour-blind. */
 static const char palette[] = "set palette defined (0 '#440154', 1 '#46327e', 2 '#365c8d', "
                               "3 '#277f8e', 4 '#1fa187', 5 '#4ac16d', 6 '#a0da39', 7 '#fde725')\n";
 static const char *const axis_name[] = {"x", "y", "z"};
@@ -17,7 +18,7 @@ struct drawing {
   struct cloud *cloud; /* one a body */
   struct view view;
   double lower[2], upper[2];
-  double least, most;  /* of the values */
+  double least, most; /* of the values */
   char name[256];
 };
 
@@ -50,8 +51,8 @@ static gamut_status write_data(const struct drawing *d)
   FILE *data = plot_file(d->plot, d->name, ".dat");
   if (!data)
     return GAMUT_OUTPUT;
-  fprintf(data, "# %s [m]  %s [m]  radius [m]  %s [%s]\n",
-          axis_name[d->view.x], axis_name[d->view.y], d->frame->field ? d->frame->field : "no field",
+  fprintf(data, "# %s [m]  %s [m]  radius [m]  %s [%s]\n", axis_name[d->view.x],
+          axis_name[d->view.y], d->frame->field ? d->frame->field : "no field",
           d->frame->unit ? d->frame->unit : "1");
   for (size_t b = 0; b < d->frame->bodies; ++b) {
     fprintf(data, "%s# %s\n", b ? "\n\n" : "", d->frame->body[b].name);
@@ -92,11 +93,13 @@ static double write_colours(const struct drawing *d, FILE *script)
                                 d->frame->unit ? d->frame->unit : "1", unit, sizeof unit);
   double low = d->least * factor, high = d->most * factor;
   double margin = high - low > 1e-9 * fmax(fabs(low), fabs(high)) ? 0 : fmax(fabs(low), 1) * 0.5;
-  fprintf(script, "%sset format cb '%%g'\nset cbrange [%.6g:%.6g]\n"
-                  "set cblabel ", palette, low - margin, high + margin);
+  fprintf(script,
+          "%sset format cb '%%g'\nset cbrange [%.6g:%.6g]\n"
+          "set cblabel ",
+          palette, low - margin, high + margin);
   field_name(d->frame, name, sizeof name);
   plot_text(script, plot_label(name, unit, label, sizeof label));
-  fputc('\n', script);
+  fprintf(script, " offset 2,0\n");
   return factor;
 }
 
@@ -107,8 +110,8 @@ static void write_discs(const struct drawing *d, FILE *script, double length, do
     if (d->cloud[b].count == 0)
       continue;
     for (int side = 1; side >= (d->plot->axisymmetric ? -1 : 1); side -= 2) {
-      fprintf(script, "%s '%s.dat' index %zu using (%d*$1*%g):($2*%g):($3*%g)", lead,
-              d->name, b, side, length, length, length);
+      fprintf(script, "%s '%s.dat' index %zu using (%d*$1*%g):($2*%g):($3*%g)", lead, d->name, b,
+              side, length, length, length);
       if (d->frame->body[b].value)
         fprintf(script, ":($4*%g) with circles fillstyle solid 1.0 noborder linecolor palette",
                 factor);
@@ -145,15 +148,15 @@ static gamut_status write_plane(struct drawing *d)
 {
   char unit[40];
   double width = d->upper[0] - d->lower[0], height = d->upper[1] - d->lower[1];
-  double size = fmax(fmax(fabs(d->lower[0]), fabs(d->upper[0])),
-                     fmax(fabs(d->lower[1]), fabs(d->upper[1])));
+  double size =
+      fmax(fmax(fabs(d->lower[0]), fabs(d->upper[0])), fmax(fabs(d->lower[1]), fabs(d->upper[1])));
   double length = readable_unit(size, "m", unit, sizeof unit);
   double shape = height > 0 ? fmin(fmax(width / height, 0.3), 4) : 4;
   FILE *script = plot_file(d->plot, d->name, ".gp");
   if (!script)
     return GAMUT_OUTPUT;
   /* the body takes about 850 pixels along its longer side; the rest is for labels and colour bar */
-  plot_script(script, d->name, (int)fmax(900, (shape < 1 ? 850 * shape : 850) + 320),
+  plot_script(script, d->name, (int)fmax(900, (shape < 1 ? 850 * shape : 850) + 340),
               (int)fmax(500, (shape < 1 ? 850 : 850 / shape) + 150));
   write_title(d, script);
   write_axes(d, script, length, unit);
@@ -168,11 +171,10 @@ static gamut_status write_line(struct drawing *d)
 {
   char unit[40], field_unit[40], label[200];
   char field[160];
-  double length =
-      readable_unit(fmax(fabs(d->lower[0]), fabs(d->upper[0])), "m", unit, sizeof unit);
-  double factor = readable_unit(fmax(fabs(d->least), fabs(d->most)),
-                                d->frame->unit ? d->frame->unit : "1", field_unit,
-                                sizeof field_unit);
+  double length = readable_unit(fmax(fabs(d->lower[0]), fabs(d->upper[0])), "m", unit, sizeof unit);
+  double factor =
+      readable_unit(fmax(fabs(d->least), fabs(d->most)), d->frame->unit ? d->frame->unit : "1",
+                    field_unit, sizeof field_unit);
   const char *lead = "plot";
   FILE *script = plot_file(d->plot, d->name, ".gp");
   field_name(d->frame, field, sizeof field);
@@ -188,8 +190,10 @@ static gamut_status write_line(struct drawing *d)
   for (size_t b = 0; b < d->frame->bodies; ++b) {
     if (!d->frame->body[b].value || d->cloud[b].count == 0)
       continue;
-    fprintf(script, "%s '%s.dat' index %zu using ($1*%g):($4*%g) with points pointtype 7 "
-                    "pointsize 0.6 title ", lead, d->name, b, length, factor);
+    fprintf(script,
+            "%s '%s.dat' index %zu using ($1*%g):($4*%g) with points pointtype 7 "
+            "pointsize 0.8 title ",
+            lead, d->name, b, length, factor);
     plot_text(script, d->frame->body[b].name);
     lead = ", \\\n    ";
   }
@@ -200,9 +204,13 @@ static gamut_status write_line(struct drawing *d)
 gamut_status plot_body(struct plot *plot, const struct result_frame *frame, size_t number)
 {
   gamut_status status = GAMUT_OK;
-  struct drawing d = {.plot = plot, .frame = frame, .view = view_of(frame),
-                      .lower = {INFINITY, INFINITY}, .upper = {-INFINITY, -INFINITY},
-                      .least = INFINITY, .most = -INFINITY};
+  struct drawing d = {.plot = plot,
+                      .frame = frame,
+                      .view = view_of(frame),
+                      .lower = {INFINITY, INFINITY},
+                      .upper = {-INFINITY, -INFINITY},
+                      .least = INFINITY,
+                      .most = -INFINITY};
   char end[32];
   int axes = 1;
   for (size_t b = 0; b < frame->bodies; ++b)

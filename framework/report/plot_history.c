@@ -40,8 +40,8 @@ static gamut_status write_data(const struct plot *plot, const struct result_hist
 static void write_curve(FILE *script, const struct result_history *history, const char *name)
 {
   char unit[40], label[200];
-  double axis = readable_unit(largest(history->time, history->count), history->axis_unit, unit,
-                              sizeof unit);
+  double axis =
+      readable_unit(largest(history->time, history->count), history->axis_unit, unit, sizeof unit);
   fprintf(script, "set xlabel ");
   plot_text(script, plot_label(history->axis, unit, label, sizeof label));
   double factor =

@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* The unit in which a value of that size reads well: writes its name to `name` and returns the factor
- * that leads to it (1000 and "mm" for 0.0162 m). The name of a pure number is empty. */
+/* The unit in which a value of that size reads well: writes its name to `name` and returns the
+ * factor that leads to it (1000 and "mm" for 0.0162 m). The name of a pure number is empty. */
 double readable_unit(double size, const char *unit, char *name, size_t name_size);
 
 /* "16.2 mm". Returns text. */

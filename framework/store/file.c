@@ -36,8 +36,8 @@ gamut_status folder_make(const char *folder, struct trace *trace)
     char kept = *end;
     *end = 0;
     if (mkdir(path, 0777) != 0 && errno != EEXIST && stat(path, &information) != 0)
-      status = trace_fail(trace, GAMUT_OUTPUT, "cannot make the folder '%s': %s", path,
-                          strerror(errno));
+      status =
+          trace_fail(trace, GAMUT_OUTPUT, "cannot make the folder '%s': %s", path, strerror(errno));
     *end = kept;
   }
   if (status == GAMUT_OK && (stat(folder, &information) != 0 || !S_ISDIR(information.st_mode)))

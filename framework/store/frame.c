@@ -6,8 +6,8 @@
 #include "store/hdf5.h"
 #include "store/state.h"
 
-/* A symmetric tensor, kept as xx yy zz xy yz zx, is written whole: xx xy xz yx yy yz zx zy zz. ParaView's
- * two XDMF readers disagree about six columns; about nine they agree. */
+/* A symmetric tensor, kept as xx yy zz xy yz zx, is written whole: xx xy xz yx yy yz zx zy zz.
+ * ParaView's two XDMF readers disagree about six columns; about nine they agree. */
 static const unsigned whole_tensor[9] = {0, 3, 5, 3, 1, 4, 5, 4, 2};
 
 unsigned stored_components(const struct frame_field *field)
@@ -53,10 +53,10 @@ static herr_t describe(hid_t dataset, const char *unit, const char *meaning, uns
 }
 
 static herr_t write_described(hid_t group, const char *name, const char *unit, const char *meaning,
-                              unsigned components, bool symmetric, size_t count,
-                              const double *data)
+                              unsigned components, bool symmetric, size_t count, const double *data)
 {
-  hid_t made = hdf5_dataset(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, components, data);
+  hid_t made =
+      hdf5_dataset(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, count, components, data);
   herr_t result = made < 0 ? -1 : describe(made, unit, meaning, components, symmetric);
   if (made >= 0)
     H5Dclose(made);
@@ -65,9 +65,9 @@ static herr_t write_described(hid_t group, const char *name, const char *unit, c
 
 static herr_t write_ids(hid_t group, const struct frame_set *set)
 {
-  hid_t made =
-      hdf5_dataset(group, "id", H5T_STD_I64LE, H5T_NATIVE_INT64, set->count, 1, set->id);
-  herr_t result = made < 0 ? -1 : describe(made, "1", "the point's number for its whole life", 1, false);
+  hid_t made = hdf5_dataset(group, "id", H5T_STD_I64LE, H5T_NATIVE_INT64, set->count, 1, set->id);
+  herr_t result =
+      made < 0 ? -1 : describe(made, "1", "the point's number for its whole life", 1, false);
   if (made >= 0)
     H5Dclose(made);
   return result;
@@ -93,7 +93,8 @@ static herr_t write_field(struct store *store, hid_t group, const struct frame_s
                          field->components == 6, set->count, buffer);
 }
 
-/* XDMF's points are vertices 0 .. N-1 that must be listed: one list serves all bodies of N points. */
+/* XDMF's points are vertices 0 .. N-1 that must be listed: one list serves all bodies of N points.
+ */
 static herr_t write_vertices(struct store *store, size_t count)
 {
   char name[48];
@@ -110,8 +111,8 @@ static herr_t write_vertices(struct store *store, size_t count)
   return 0;
 }
 
-static herr_t write_set(struct store *store, hid_t frame, const struct frame_set *set, size_t number,
-                        const struct frame_field *field, size_t fields)
+static herr_t write_set(struct store *store, hid_t frame, const struct frame_set *set,
+                        size_t number, const struct frame_field *field, size_t fields)
 {
   double *buffer = store->buffer;
   hid_t group = H5Gcreate2(frame, set->body, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
@@ -123,8 +124,8 @@ static herr_t write_set(struct store *store, hid_t frame, const struct frame_set
   }
   herr_t result = hdf5_whole_attribute(group, "axes", set->axes);
   if (result >= 0)
-    result = write_described(group, "position", "m", "where the point is", 3, false, set->count,
-                             buffer);
+    result =
+        write_described(group, "position", "m", "where the point is", 3, false, set->count, buffer);
   if (result >= 0)
     result = write_ids(group, set);
   if (result >= 0)
@@ -156,8 +157,8 @@ static herr_t write_frame(struct store *store, double time, uint64_t step,
 }
 
 /* Generous: what HDF5 keeps beside the numbers is far less than this a dataset. */
-static size_t frame_bytes(const struct frame_set *set, size_t sets,
-                          const struct frame_field *field, size_t fields)
+static size_t frame_bytes(const struct frame_set *set, size_t sets, const struct frame_field *field,
+                          size_t fields)
 {
   size_t columns = 5, beside = 8192, bytes = 65536;
   for (size_t f = 0; f < fields; ++f)

@@ -130,8 +130,7 @@ hid_t hdf5_dataset(hid_t at, const char *name, hid_t stored, hid_t memory, size_
   hsize_t extent[2] = {rows, columns};
   hid_t space = H5Screate_simple(columns == 1 ? 1 : 2, extent, NULL);
   hid_t made = H5Dcreate2(at, name, stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  if (made >= 0 && rows > 0 &&
-      H5Dwrite(made, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
+  if (made >= 0 && rows > 0 && H5Dwrite(made, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
     H5Dclose(made);
     made = -1;
   }

@@ -9,11 +9,13 @@
 
 #include "error/error.h"
 
-/* Records GAMUT_OUTPUT with the innermost reason of HDF5's error stack ("No space left on device"). */
+/* Records GAMUT_OUTPUT with the innermost reason of HDF5's error stack ("No space left on device").
+ */
 gamut_status hdf5_fault(const char *file, const char *what, struct trace *);
 
-/* Makes room on the disk for `bytes` more before HDF5 writes them, and gives back what is left after a
- * flush. HDF5 cannot recover from a disk that fills up while it writes: closing such a file crashes. */
+/* Makes room on the disk for `bytes` more before HDF5 writes them, and gives back what is left
+ * after a flush. HDF5 cannot recover from a disk that fills up while it writes: closing such a file
+ * crashes. */
 gamut_status hdf5_reserve(hid_t file, size_t bytes, const char *path, struct trace *);
 gamut_status hdf5_flush(hid_t file, const char *path, struct trace *);
 

@@ -72,8 +72,8 @@ size_t result_frames(const struct result *result)
 
 char *link_name(hid_t group, size_t index)
 {
-  ssize_t size = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, NULL, 0,
-                                    H5P_DEFAULT);
+  ssize_t size =
+      H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, NULL, 0, H5P_DEFAULT);
   char *name = size >= 0 ? malloc((size_t)size + 1) : NULL;
   if (name)
     H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, name, (size_t)size + 1,

@@ -18,10 +18,10 @@ size_t result_frames(const struct result *);
 /* One body of a frame. All arrays are allocated. */
 struct result_body {
   char *name;
-  int axes;          /* which columns of position are real */
+  int axes; /* which columns of position are real */
   size_t count;
-  double *position;  /* count x 3 */
-  double *value;     /* count; null where the body lacks the field */
+  double *position; /* count x 3 */
+  double *value;    /* count; null where the body lacks the field */
 };
 struct result_frame {
   double time;
@@ -31,10 +31,10 @@ struct result_frame {
   char *field, *unit;  /* of `value`: "velocity_y", "velocity" for its magnitude; null: no fields */
   const char *reduced; /* "magnitude", "von Mises", "norm"; null for a scalar or a component */
 };
-/* Reads a frame and one field as a scalar: a component ("velocity_y", "stress_xx"), the magnitude of a
- * vector ("velocity"), von Mises of a symmetric tensor ("stress"), Frobenius norm of a tensor. With
- * field null takes plastic_strain, or else the first that is there. An unknown one is refused with
- * GAMUT_USAGE, the nearest name and the names that there are. */
+/* Reads a frame and one field as a scalar: a component ("velocity_y", "stress_xx"), the magnitude
+ * of a vector ("velocity"), von Mises of a symmetric tensor ("stress"), Frobenius norm of a tensor.
+ * With field null takes plastic_strain, or else the first that is there. An unknown one is refused
+ * with GAMUT_USAGE, the nearest name and the names that there are. */
 gamut_status result_frame_read(const struct result *, size_t frame, const char *field,
                                struct trace *, struct result_frame **);
 void result_frame_free(struct result_frame *); /* accepts null */

@@ -19,13 +19,13 @@ void text_add(struct text *, const char *format, ...) __attribute__((format(prin
 struct store {
   char *folder, *path; /* path of results.h5 */
   hid_t file;
-  bool broken;         /* HDF5 failed: closing would fail too */
+  bool broken; /* HDF5 failed: closing would fail too */
   size_t frames;
   double last_time;
   uint64_t last_step;
-  double *buffer;      /* a field of one body, row by row */
+  double *buffer; /* a field of one body, row by row */
   size_t buffer_size;
-  struct text xdmf;    /* the frames of results.xdmf so far */
+  struct text xdmf; /* the frames of results.xdmf so far */
 };
 
 /* Names of the files of a result. */

@@ -210,9 +210,8 @@ gamut_status store_scene(struct store *store, const struct tree *tree, struct tr
   if (!memory)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   tree_write(tree, memory);
-  gamut_status status = fclose(memory) == 0
-                            ? keep_text(store, RESULT_SCENE, "scene", text, trace)
-                            : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  gamut_status status = fclose(memory) == 0 ? keep_text(store, RESULT_SCENE, "scene", text, trace)
+                                            : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   free(text);
   return status;
 }

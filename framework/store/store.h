@@ -12,9 +12,10 @@
 
 struct store;
 
-/* Creates DIR (and its parents). An existing result is refused with GAMUT_OUTPUT unless `force`, which
- * removes only files of a former result: results.h5, results.xdmf, history.csv, summary.json,
- * scene.yaml and what `gamut plot` made in pictures/, and only where results.h5 is one of ours. Nothing is made when the scene was wrong: call this late. */
+/* Creates DIR (and its parents). An existing result is refused with GAMUT_OUTPUT unless `force`,
+ * which removes only files of a former result: results.h5, results.xdmf, history.csv, summary.json,
+ * scene.yaml and what `gamut plot` made in pictures/, and only where results.h5 is one of ours.
+ * Nothing is made when the scene was wrong: call this late. */
 gamut_status store_open(const char *folder, bool force, struct trace *, struct store **);
 void store_close(struct store *); /* accepts null */
 
@@ -23,28 +24,30 @@ struct frame_set {
   const char *body;
   size_t count;
   const int64_t *id;
-  const double *position[3];     /* missing axes null: written as 0 */
-  int axes;                      /* 1, 2, 3: which of position are real */
+  const double *position[3]; /* missing axes null: written as 0 */
+  int axes;                  /* 1, 2, 3: which of position are real */
 };
 struct frame_field {
   const char *name, *unit, *meaning;
-  unsigned components;           /* 1, 3, 6 or 9: scalar, vector, symmetric tensor, tensor */
-  const double *const *data;     /* [set * components + component], count of that set each */
+  unsigned components;       /* 1, 3, 6 or 9: scalar, vector, symmetric tensor, tensor */
+  const double *const *data; /* [set * components + component], count of that set each */
 };
-/* N rows of components. A symmetric tensor is stored whole, nine columns row by row, since the two XDMF
- * readers of ParaView disagree about six; the attribute `components` of a dataset
- * names its columns. A field called position is left out: the position is always there, N x 3. A frame
- * at the time and step of the last one is not written again.
+/* N rows of components. A symmetric tensor is stored whole, nine columns row by row, since the two
+ * XDMF readers of ParaView disagree about six; the attribute `components` of a dataset names its
+ * columns. A field called position is left out: the position is always there, N x 3. A frame at the
+ * time and step of the last one is not written again.
  *
- * Writes group /frames/NNNNNNNN with /BODY/position, /BODY/id and one dataset a field, attributes with
- * units; flushes; then rewrites results.xdmf by rename, so that a viewer may look during a run. */
+ * Writes group /frames/NNNNNNNN with /BODY/position, /BODY/id and one dataset a field, attributes
+ * with units; flushes; then rewrites results.xdmf by rename, so that a viewer may look during a
+ * run. */
 gamut_status store_frame(struct store *, double time, uint64_t step, const struct frame_set *,
                          size_t sets, const struct frame_field *, size_t fields, struct trace *);
-/* Writes every history to history.csv (own time column each, long form: quantity,unit,time,value) and
- * to /quantities/NAME/{time,value} in the HDF5 file. An axis that is not time has its own name in both. */
+/* Writes every history to history.csv (own time column each, long form: quantity,unit,time,value)
+ * and to /quantities/NAME/{time,value} in the HDF5 file. An axis that is not time has its own name
+ * in both. */
 gamut_status store_histories(struct store *, struct history *const *, size_t count, struct trace *);
-/* scene.yaml and summary.json; the same texts as datasets /scene and /summary (an attribute holds no more
- * than 64 kB). */
+/* scene.yaml and summary.json; the same texts as datasets /scene and /summary (an attribute holds
+ * no more than 64 kB). */
 gamut_status store_scene(struct store *, const struct tree *, struct trace *);
 gamut_status store_summary(struct store *, const char *json, struct trace *);
 const char *store_folder(const struct store *);

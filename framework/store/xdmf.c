@@ -58,11 +58,14 @@ void vertices_name(size_t count, char *name, size_t size)
   snprintf(name, size, "vertices/%08zu", count);
 }
 
-/* Up to the path of the dataset. ParaView's newer reader takes whole datasets only: no hyperslabs. */
+/* Up to the path of the dataset. ParaView's newer reader takes whole datasets only: no hyperslabs.
+ */
 static void open_item(struct text *text, const char *type, size_t rows, size_t columns)
 {
-  text_add(text, "            <DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"8\" "
-                 "Dimensions=\"%zu", type, rows);
+  text_add(text,
+           "            <DataItem Format=\"HDF\" NumberType=\"%s\" Precision=\"8\" "
+           "Dimensions=\"%zu",
+           type, rows);
   if (columns > 1)
     text_add(text, " %zu", columns);
   text_add(text, "\">" RESULT_HDF5 ":/");
@@ -103,8 +106,8 @@ static void add_attribute(struct text *text, const char *name, const char *numbe
   text_add(text, "          </Attribute>\n");
 }
 
-static void add_body(struct text *text, const struct frame_set *set, const struct frame_field *field,
-                     size_t fields, size_t frame)
+static void add_body(struct text *text, const struct frame_set *set,
+                     const struct frame_field *field, size_t fields, size_t frame)
 {
   char vertices[48];
   text_add(text, "        <Grid Name=\"");
@@ -123,8 +126,8 @@ static void add_body(struct text *text, const struct frame_set *set, const struc
   add_attribute(text, "id", "Int", 1, set->count, frame, set->body);
   for (size_t i = 0; i < fields; ++i) {
     if (!is_position(&field[i]))
-      add_attribute(text, field[i].name, "Float", stored_components(&field[i]), set->count,
-                    frame, set->body);
+      add_attribute(text, field[i].name, "Float", stored_components(&field[i]), set->count, frame,
+                    set->body);
   }
   text_add(text, "        </Grid>\n");
 }

@@ -10,12 +10,18 @@
 
 static void test_readable(void)
 {
-  static const struct { double value; const char *unit, *text; } known[] = {
-      {0.0162, "m", "16.2 mm"},      {80e-6, "s", "80 us"},       {2.5e9, "Pa", "2.5 GPa"},
-      {190, "m/s", "190 m/s"},       {3940, "m/s", "3940 m/s"},   {0.3, "1", "0.3"},
-      {1e-3, "m", "1 mm"},           {999.9e-6, "m", "999.9 um"}, {0.0105, "kg", "10.5 g"},
-      {-4.2e4, "N", "-42 kN"},       {0, "m", "0 m"},             {298, "K", "298 K"},
-      {1e20, "Pa", "1e+08 TPa"},     {1e5, "1/s", "1e+05 1/s"},   {3e6, "J/m3", "3 MJ/m3"},
+  static const struct {
+    double value;
+    const char *unit, *text;
+  } known[] = {
+      {0.0162, "m", "16.2 mm"},  {80e-6, "s", "80 us"},
+      {2.5e9, "Pa", "2.5 GPa"},  {190, "m/s", "190 m/s"},
+      {3940, "m/s", "3940 m/s"}, {0.3, "1", "0.3"},
+      {1e-3, "m", "1 mm"},       {999.9e-6, "m", "999.9 um"},
+      {0.0105, "kg", "10.5 g"},  {-4.2e4, "N", "-42 kN"},
+      {0, "m", "0 m"},           {298, "K", "298 K"},
+      {1e20, "Pa", "1e+08 TPa"}, {1e5, "1/s", "1e+05 1/s"},
+      {3e6, "J/m3", "3 MJ/m3"},
   };
   char text[48], rate[64];
   for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i)
@@ -43,8 +49,8 @@ static void test_progress(void)
   fclose(memory);
   fclose(file);
   tap_ok(lines == 10, "one line a tenth where no terminal is: %zu", lines);
-  tap_ok(strncmp(text, " 10 %  8 us of 80 us, step 100, 2 million point-steps/s, 0:00 left\n", 67) ==
-             0,
+  tap_ok(strncmp(text, " 10 %  8 us of 80 us, step 100, 2 million point-steps/s, 0:00 left\n",
+                 67) == 0,
          "the first: %.66s", text);
   tap_ok(!strchr(text, '\r') && !strchr(text, '\033'), "no control characters in a file");
   free(text);
@@ -66,8 +72,7 @@ static void test_summary(void)
   report_summary("{", memory);
   fclose(memory);
   tap_ok(strstr(text, "final_length  16.2 mm\n") != NULL, "a scalar");
-  tap_ok(strstr(text, "1 GPa at the end; from 0 GPa to 2 GPa in 3 samples\n") != NULL,
-         "a history");
+  tap_ok(strstr(text, "1 GPa at the end; from 0 GPa to 2 GPa in 3 samples\n") != NULL, "a history");
   tap_ok(strstr(text, "no value: it never reaches 5 Pa\n") != NULL, "none");
   tap_ok(strstr(text, "16 mm +- 0.01 mm, standard deviation 1 mm\n") != NULL, "a study's");
   tap_ok(strstr(text, "ledger closes: mass to 1.0e-14") != NULL, "the ledger");
@@ -92,8 +97,8 @@ static gamut_status write_body(const char *folder, int axes, struct trace *trace
     value[i] = 300 + 1e4 * (axes == 1 ? x[0][i] : x[2][i] + x[0][i]);
   }
   const double *data[1] = {value};
-  const struct frame_set set = {"bar", count, id, {x[0], axes > 1 ? x[1] : NULL,
-                                axes > 2 ? x[2] : NULL}, axes};
+  const struct frame_set set = {
+      "bar", count, id, {x[0], axes > 1 ? x[1] : NULL, axes > 2 ? x[2] : NULL}, axes};
   const struct frame_field field = {"temperature", "K", "temperature", 1, data};
   gamut_status status = store_open(folder, false, trace, &store);
   if (status == GAMUT_OK)
@@ -177,7 +182,8 @@ static void test_pictures(const char *home)
   options.frame = 5;
   tap_ok(draw(bar, &options, trace) == GAMUT_USAGE, "a frame that is not there");
   options = (struct plot_options){.frame = -1, .folder = home};
-  tap_ok(draw(line, &options, trace) == GAMUT_OK && is_picture(home, "body_temperature_00000000.png"),
+  tap_ok(draw(line, &options, trace) == GAMUT_OK &&
+             is_picture(home, "body_temperature_00000000.png"),
          "a line");
   options.folder = NULL;
   snprintf(pictures, sizeof pictures, "%s/pictures", block);
@@ -189,7 +195,7 @@ static void test_pictures(const char *home)
 
 int main(void)
 {
-  char home[] = "/tmp/gamut-report-XXXXXX", command[64];
+  char home[] = P_tmpdir "/gamut-report-XXXXXX", command[64];
   test_readable();
   test_progress();
   test_summary();

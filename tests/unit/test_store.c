@@ -11,7 +11,7 @@
 #include "tests/tap.h"
 #include "tests/unit/sample_result.h"
 
-static char home[] = "/tmp/gamut-store-XXXXXX";
+static char home[] = P_tmpdir "/gamut-store-XXXXXX";
 
 /* The call comes first, then its words. */
 #define CHECK(condition, name)                                                                     \
@@ -66,7 +66,8 @@ static void test_read_back(void)
   struct result_frame *frame = NULL;
   struct result_history *history = NULL;
   size_t histories = 0;
-  CHECK(sample_result(at("a/b/one"), false, trace, &store) == GAMUT_OK, "a result is written, its folders made");
+  CHECK(sample_result(at("a/b/one"), false, trace, &store) == GAMUT_OK,
+        "a result is written, its folders made");
   tap_text("its folder", store_folder(store), at("a/b/one"));
   store_close(store);
 
@@ -110,7 +111,8 @@ static void test_refusals(void)
   struct trace *trace = trace_new();
   struct store *store = NULL;
   const char *folder = at("a/b/one");
-  CHECK(store_open(folder, false, trace, &store) == GAMUT_OUTPUT && !store, "an existing result is refused");
+  CHECK(store_open(folder, false, trace, &store) == GAMUT_OUTPUT && !store,
+        "an existing result is refused");
   mkdir(at("a/b/one/pictures"), 0777);
   put(at("a/b/one/notes.txt"), "mine");
   put(at("a/b/one/pictures/history_length.png"), "old");
