@@ -114,7 +114,15 @@ gamut_status sort_points(struct model *);
 /* step.c */
 gamut_status step_register(struct model *);
 gamut_status step_first_scatter(struct model *);
+
+/* update.c */
 void step_collect(struct model *);
+gamut_status step_update_grid(void *self, const struct gamut_chunk *);
+gamut_status step_update_again(void *self, const struct gamut_chunk *);
+
+/* sums.c: energy may be null, forces not. */
+void sums_motion(struct work *, const struct point_view *, const double *energy);
+void sums_forces(struct work *, const struct point_view *);
 
 /* ledger.c */
 gamut_status ledger_open(struct model *);
@@ -124,8 +132,8 @@ void ledger_keep(struct model *, double step);
 void ledger_add_up(const struct model *, double total[POINT_SUMS]);
 
 /* measures.c */
-gamut_status measure_value(struct model *, const char *name, const struct gamut_values *,
-                           double *value);
+gamut_status measure_value(struct model *, const char *name, const struct gamut_body *,
+                           const struct gamut_values *, double *value);
 
 /* The model's own error texts about a point. */
 gamut_status point_failed(struct model *, const struct gamut_set *, size_t slot, const double x[3],

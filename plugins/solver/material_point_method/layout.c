@@ -1,0 +1,219 @@
+/* The points of the bodies. A body's points lie on a lattice of its own: the number of points along an
+ * axis is that of points per cell, rounded so that the lattice fits the body's bounds exactly; a place
+ * of the lattice inside the shape is a point. */
+#include <math.h>
+
+#include "model.h"
+
+static const double two_pi = 6.28318530717958647692;
+
+/* Points along one axis of a cell, or 0 where `points` is no power of that many axes. */
+static int root(long points, unsigned dimension)
+{
+  for (int n = 1; n <= 16; n++) {
+    long power = 1;
+    for (unsigned k = 0; k < dimension; k++)
+      power *= n;
+    if (power == points)
+      return n;
+  }
+  return 0;
+}
+
+static void lattice_place(const struct body *b, unsigned dimension, const long at[3], double x[3])
+{
+  for (unsigned k = 0; k < 3; k++)
+    x[k] = k < dimension ? b->lower[k] + ((double)at[k] + 0.5) * b->spacing[k] : 0.0;
+}
+
+/* Next place of the lattice, x fastest; false past the end. */
+static bool lattice_next(const struct body *b, long at[3])
+{
+  for (unsigned k = 0; k < 3; k++) {
+    if (++at[k] < b->count[k])
+      return true;
+    at[k] = 0;
+  }
+  return false;
+}
+
+static gamut_status check_place(const struct model *m, const struct gamut_values *values,
+                                const char *name, const double lower[3], const double upper[3])
+{
+  for (unsigned k = 0; k < m->dimension; k++) {
+    if (!isfinite(lower[k]) || !isfinite(upper[k]))
+      return gamut_fail(m->run, GAMUT_SCENE, "body '%s' has no end along %c", name, "xyz"[k]);
+    if (upper[k] - lower[k] < m->cell * (1.0 - 1e-9))
+      return gamut_fail_at(m->run, values, "cell", "a cell no larger than any body",
+                           "the cell (%g m) is larger than body '%s' along %c (%g m)", m->cell,
+                           name, "xyz"[k], upper[k] - lower[k]);
+    const double slack = 1e-9 * m->cell;
+    if (m->bounded && (lower[k] < m->lower[k] - slack || upper[k] > m->upper[k] + slack))
+      return gamut_fail_at(m->run, values, "domain", "a domain around all bodies",
+                           "body '%s' reaches out of the domain along %c", name, "xyz"[k]);
+  }
+  return GAMUT_OK;
+}
+
+static gamut_status lay_lattice(struct model *m, const struct gamut_values *values, struct body *b)
+{
+  const char *name = m->host->body_name(b->scene);
+  const struct gamut_values *own = m->host->body_values(b->scene);
+  double lower[3], upper[3];
+  int along = 2;
+  if (!m->host->body_bounds(b->scene, lower, upper))
+    return gamut_fail(m->run, GAMUT_SCENE, "body '%s' has no shape to lay points in", name);
+  if (own != NULL && gamut_given(own, "points_per_cell")) {
+    along = root(gamut_integer(own, "points_per_cell"), m->dimension);
+    if (along == 0)
+      return gamut_fail_at(m->run, own, "points_per_cell",
+                           m->dimension == 3   ? "1, 8, 27, 64 ..."
+                           : m->dimension == 2 ? "1, 4, 9, 16 ..."
+                                               : "1, 2, 3 ... 16",
+                           "the points of a cell must make a square lattice");
+  }
+  if (m->geometry == GEOMETRY_AXISYMMETRIC)
+    lower[0] = fmax(lower[0], 0.0); /* a shape around the axis: its half */
+  const gamut_status status = check_place(m, values, name, lower, upper);
+  if (status != GAMUT_OK)
+    return status;
+  double places = 1.0;
+  for (unsigned k = 0; k < 3; k++) {
+    b->lower[k] = k < m->dimension ? lower[k] : 0.0;
+    b->count[k] = 1;
+    b->spacing[k] = 0.0;
+    if (k >= m->dimension)
+      continue;
+    const double wanted = round((upper[k] - lower[k]) * along / m->cell);
+    places *= wanted;
+    if (!(places < 2e9))
+      return gamut_fail_at(m->run, values, "cell", "a larger cell",
+                           "body '%s' would take more than 2e9 points", name);
+    b->count[k] = (long)wanted < 1 ? 1 : (long)wanted;
+    b->spacing[k] = (upper[k] - lower[k]) / (double)b->count[k];
+  }
+  b->density = m->host->body_density(m->run, b->scene);
+  long at[3] = {0, 0, 0};
+  do {
+    double x[3];
+    lattice_place(b, m->dimension, at, x);
+    b->points += m->host->body_contains(b->scene, x);
+  } while (lattice_next(b, at));
+  if (b->points == 0)
+    return gamut_fail_at(m->run, values, "cell", "a smaller cell", "body '%s' holds no point", name);
+  return gamut_points(m->run, b->scene, b->points, &b->set);
+}
+
+gamut_status layout_bodies(struct model *m, const struct gamut_values *values)
+{
+  m->bodies = gamut_bodies(m->run);
+  if (m->bodies == 0)
+    return gamut_fail(m->run, GAMUT_SCENE, "the scene has no body");
+  m->body = gamut_allocate(m->run, "solver", m->bodies * sizeof *m->body);
+  if (m->body == NULL)
+    return GAMUT_INTERNAL;
+  for (size_t i = 0; i < m->bodies; i++) {
+    m->body[i].scene = gamut_body_at(m->run, i);
+    const gamut_status status = lay_lattice(m, values, &m->body[i]);
+    if (status != GAMUT_OK)
+      return status;
+  }
+  return GAMUT_OK;
+}
+
+/* A body that is a whole number of cells long starts on a node; another is centred on one. */
+void layout_origin(struct model *m)
+{
+  for (unsigned k = 0; k < m->dimension; k++) {
+    if (m->origin_fixed[k])
+      continue;
+    const struct body *b = &m->body[0];
+    const double length = b->spacing[k] * (double)b->count[k], cells = length / m->cell;
+    m->grid.origin[k] =
+        fabs(cells - round(cells)) < 1e-6 ? b->lower[k] : b->lower[k] + 0.5 * length;
+    m->origin_fixed[k] = true;
+  }
+}
+
+static double place_volume(const struct model *m, const struct body *b, const double x[3])
+{
+  double volume = 1.0;
+  for (unsigned k = 0; k < m->dimension; k++)
+    volume *= b->spacing[k];
+  return m->geometry == GEOMETRY_AXISYMMETRIC ? volume * two_pi * x[0] : volume;
+}
+
+static gamut_status check_planes(const struct model *m, const struct body *b, const double x[3])
+{
+  for (size_t i = 0; i < m->planes.count; i++)
+    if (plane_distance(m->planes.plane[i], x, 0.0) < -1e-9 * m->cell)
+      return gamut_fail(m->run, GAMUT_SCENE,
+                        "body '%s' reaches behind a plane: its point at (%g, %g, %g) m is %g m "
+                        "behind the plane through (%g, %g, %g) m",
+                        m->host->body_name(b->scene), x[0], x[1], x[2],
+                        -plane_distance(m->planes.plane[i], x, 0.0),
+                        m->planes.plane[i]->given.point[0], m->planes.plane[i]->given.point[1],
+                        m->planes.plane[i]->given.point[2]);
+  return GAMUT_OK;
+}
+
+/* The shape's volume over that of the lattice, which fits a curved side only roughly. */
+static double volume_correction(const struct model *m, const struct body *b, double volume)
+{
+  const struct gamut_host *h = m->host;
+  if (h->size < offsetof(struct gamut_host, body_volume) + sizeof h->body_volume ||
+      h->body_volume == NULL)
+    return 1.0;
+  const double exact =
+      h->body_volume(b->scene, m->dimension, m->geometry == GEOMETRY_AXISYMMETRIC);
+  return exact > 0.0 ? exact / volume : 1.0;
+}
+
+static gamut_status fill_body(struct model *m, struct body *b)
+{
+  const struct gamut_host *h = m->host;
+  double *x[3], *v[3], *mass = h->stored(b->set, m->field.mass, 0);
+  double *reference = h->stored(b->set, m->field.reference_volume, 0);
+  for (unsigned k = 0; k < 3; k++) {
+    x[k] = h->stored(b->set, m->field.position, k);
+    v[k] = h->stored(b->set, m->field.velocity, k);
+  }
+  long at[3] = {0, 0, 0};
+  size_t slot = 0;
+  double volume = 0.0;
+  do {
+    double place[3], speed[3] = {0.0, 0.0, 0.0};
+    lattice_place(b, m->dimension, at, place);
+    if (!h->body_contains(b->scene, place))
+      continue;
+    const gamut_status status = check_planes(m, b, place);
+    if (status != GAMUT_OK)
+      return status;
+    h->body_velocity(b->scene, place, speed);
+    for (unsigned k = 0; k < 3; k++) {
+      x[k][slot] = place[k];
+      v[k][slot] = k < m->dimension ? speed[k] : 0.0;
+      m->nodes.speed = fmax(m->nodes.speed, fabs(v[k][slot]));
+    }
+    mass[slot] = place_volume(m, b, place);
+    volume += mass[slot++];
+  } while (lattice_next(b, at));
+  const double correction = volume_correction(m, b, volume);
+  for (size_t i = 0; i < slot; i++) {
+    if (reference != NULL)
+      reference[i] = mass[i] * correction;
+    mass[i] *= correction * b->density;
+    m->grid.empty = fmax(m->grid.empty, 1e-12 * mass[i]);
+  }
+  return GAMUT_OK;
+}
+
+gamut_status layout_fill(struct model *m)
+{
+  for (size_t i = 0; i < m->bodies; i++) {
+    const gamut_status status = fill_body(m, &m->body[i]);
+    if (status != GAMUT_OK)
+      return status;
+  }
+  return GAMUT_OK;
+}

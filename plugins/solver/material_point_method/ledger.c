@@ -1,0 +1,133 @@
+/* The ledger. Energy of the points goes to the grid in the scatter (and some is lost there), is worked
+ * on at the nodes, and comes back in the gather (and some is lost there). Each of these is summed where
+ * it happens and on its own, so that the balance is a check and not a definition. The remainder of the
+ * stress update is what internal forces took from the grid and the material's energy does not show. */
+#include <string.h>
+
+#include "model.h"
+
+/* Components of momentum and of its moment that the geometry conserves. */
+static bool keeps_momentum(const struct model *m, unsigned k)
+{
+  return m->geometry == GEOMETRY_AXISYMMETRIC ? k == 1 : k < m->dimension;
+}
+
+static bool keeps_spin(const struct model *m, unsigned k)
+{
+  return m->geometry == GEOMETRY_3D || (m->geometry == GEOMETRY_PLANE_STRAIN && k == 2);
+}
+
+static gamut_status line(struct model *m, const char *account, const char *name, const char *unit,
+                         enum gamut_ledger_role role, double **value)
+{
+  return m->host->ledger(m->run, account, name, unit, role, value);
+}
+
+static gamut_status open_motion(struct model *m, unsigned k)
+{
+  static const char *const momentum[3] = {"momentum_x", "momentum_y", "momentum_z"};
+  static const char *const spin[3] = {"angular_momentum_x", "angular_momentum_y",
+                                      "angular_momentum_z"};
+  struct ledger *l = &m->ledger;
+  gamut_status status = GAMUT_OK;
+  if (keeps_momentum(m, k)) {
+    const char *a = momentum[k], *unit = "kg m/s";
+    status = line(m, a, "momentum", unit, GAMUT_STORED, &l->momentum[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "external forces", unit, GAMUT_SUPPLIED, &l->external_impulse[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "planes", unit, GAMUT_SUPPLIED, &l->plane_impulse[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "nearly empty nodes", unit, GAMUT_SUPPLIED, &l->empty_nodes[k]);
+  }
+  if (keeps_spin(m, k) && status == GAMUT_OK) {
+    const char *a = spin[k], *unit = "kg m2/s";
+    status = line(m, a, "angular momentum", unit, GAMUT_STORED, &l->spin[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "external forces", unit, GAMUT_SUPPLIED, &l->external_torque[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "planes", unit, GAMUT_SUPPLIED, &l->plane_torque[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "gather loss", unit, GAMUT_LOST, &l->spin_loss[k]);
+  }
+  return status;
+}
+
+gamut_status ledger_open(struct model *m)
+{
+  struct ledger *l = &m->ledger;
+  const struct {
+    const char *account, *name, *unit;
+    enum gamut_ledger_role role;
+    double **value;
+  } lines[] = {{"mass", "points", "kg", GAMUT_STORED, &l->mass},
+               {"energy", "kinetic", "J", GAMUT_STORED, &l->kinetic},
+               {"energy", "internal", "J", GAMUT_STORED, &l->internal},
+               {"energy", "external forces", "J", GAMUT_SUPPLIED, &l->external_work},
+               {"energy", "planes", "J", GAMUT_SUPPLIED, &l->plane_work},
+               {"energy", "scatter loss", "J", GAMUT_LOST, &l->scatter_loss},
+               {"energy", "gather loss", "J", GAMUT_LOST, &l->gather_loss},
+               {"energy", "stress remainder", "J", GAMUT_LOST, &l->remainder}};
+  gamut_status status = GAMUT_OK;
+  for (size_t i = 0; i < sizeof lines / sizeof *lines && status == GAMUT_OK; i++)
+    status = line(m, lines[i].account, lines[i].name, lines[i].unit, lines[i].role, lines[i].value);
+  for (unsigned k = 0; k < 3 && status == GAMUT_OK; k++)
+    status = open_motion(m, k);
+  return status;
+}
+
+void ledger_add_up(const struct model *m, double total[POINT_SUMS])
+{
+  memset(total, 0, POINT_SUMS * sizeof *total);
+  for (size_t s = 0; s < m->grid.sources; s++)
+    for (size_t q = 0; q < POINT_SUMS; q++)
+      total[q] += m->block_sum[s * POINT_SUMS + q];
+}
+
+static void show_stored(struct model *m)
+{
+  struct ledger *l = &m->ledger;
+  *l->mass = l->now[SUM_MASS];
+  *l->kinetic = l->now[SUM_KINETIC];
+  *l->internal = l->now[SUM_INTERNAL];
+  for (unsigned k = 0; k < 3; k++) {
+    if (l->momentum[k] != NULL)
+      *l->momentum[k] = l->now[SUM_MOMENTUM + k];
+    if (l->spin[k] != NULL)
+      *l->spin[k] = l->now[SUM_SPIN + k];
+  }
+}
+
+void ledger_start(struct model *m)
+{
+  ledger_add_up(m, m->ledger.now);
+  show_stored(m);
+}
+
+void ledger_keep(struct model *m, double step)
+{
+  struct ledger *l = &m->ledger;
+  double was[POINT_SUMS];
+  memcpy(was, l->now, sizeof was);
+  ledger_add_up(m, l->now);
+  show_stored(m);
+  /* the force stood at its place during the step while the velocity changed by force / mass */
+  const double external = step * (was[SUM_POWER] + step * was[SUM_MOBILITY]);
+  *l->external_work += external;
+  *l->plane_work += m->planes.work;
+  *l->scatter_loss += was[SUM_KINETIC] - m->nodes.kinetic_before;
+  *l->gather_loss += m->nodes.kinetic_after - l->now[SUM_KINETIC];
+  *l->remainder += external - m->nodes.work - (l->now[SUM_INTERNAL] - was[SUM_INTERNAL]);
+  for (unsigned k = 0; k < 3; k++) {
+    if (l->momentum[k] != NULL) {
+      *l->external_impulse[k] += step * was[SUM_FORCE + k];
+      *l->plane_impulse[k] += m->planes.impulse[k];
+      *l->empty_nodes[k] -= m->nodes.lost[k];
+    }
+    if (l->spin[k] != NULL) {
+      *l->external_torque[k] += step * was[SUM_TORQUE + k];
+      *l->plane_torque[k] += m->planes.torque[k];
+      *l->spin_loss[k] += m->nodes.spin_after[k] - l->now[SUM_SPIN + k];
+    }
+  }
+}

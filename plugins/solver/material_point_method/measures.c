@@ -1,0 +1,216 @@
+/* Measures of bodies. A point stands for the matter around it: for half its spacing at the start, made
+ * longer or shorter as the body is along that axis near the point, which is not known, so as the cube (in
+ * two dimensions the square) root of its volume ratio tells. */
+#include <math.h>
+#include <string.h>
+
+#include "model.h"
+
+static int axis_of(const struct gamut_values *arguments)
+{
+  const char *name = gamut_text(arguments, "axis");
+  return name[0] == 'x' ? 0 : name[0] == 'y' ? 1 : 2;
+}
+
+/* The points of a body with what measures need of them. */
+struct cloud {
+  const struct body *body;
+  const struct gamut_set *set;
+  const double *x[3], *v[3], *mass, *ratio, *energy, *stress[6];
+};
+
+static struct cloud cloud_of(const struct model *m, const struct gamut_body *wanted)
+{
+  struct cloud c = {0};
+  for (size_t i = 0; i < m->bodies; i++)
+    if (m->body[i].scene == wanted)
+      c.body = &m->body[i];
+  c.set = c.body->set;
+  for (unsigned k = 0; k < 3; k++) {
+    c.x[k] = m->host->stored(c.set, m->field.position, k);
+    c.v[k] = m->host->stored(c.set, m->field.velocity, k);
+  }
+  for (unsigned k = 0; k < 6; k++)
+    c.stress[k] = m->host->stored(c.set, m->field.stress, k);
+  c.mass = m->host->stored(c.set, m->field.mass, 0);
+  c.ratio = m->host->stored(c.set, m->field.volume_ratio, 0);
+  c.energy = m->host->stored(c.set, m->field.energy, 0);
+  return c;
+}
+
+static double half_size(const struct model *m, const struct cloud *c, size_t slot, int axis)
+{
+  return 0.5 * c->body->spacing[axis] * pow(c->ratio[slot], 1.0 / (double)m->dimension);
+}
+
+/* From the lowest to the highest edge along an axis, of the points with lower <= x[along] <= upper. */
+static bool span(const struct model *m, const struct cloud *c, int axis, int along, double lower,
+                 double upper, double *low, double *high)
+{
+  bool any = false;
+  for (size_t i = 0; i < c->set->slots; i++) {
+    if (c->set->id[i] < 0 || (along >= 0 && !(c->x[along][i] >= lower && c->x[along][i] <= upper)))
+      continue;
+    const double half = half_size(m, c, i, axis), x = c->x[axis][i];
+    *low = any && *low < x - half ? *low : x - half;
+    *high = any && *high > x + half ? *high : x + half;
+    any = true;
+  }
+  return any;
+}
+
+static double width(const struct model *m, double low, double high, int axis)
+{
+  return m->geometry == GEOMETRY_AXISYMMETRIC && axis == 0 ? 2.0 * high : high - low;
+}
+
+static gamut_status extent(struct model *m, const struct cloud *c, int axis, double *value)
+{
+  double low = 0.0, high = 0.0;
+  if (axis >= (int)m->dimension)
+    return gamut_fail(m->run, GAMUT_SCENE, "there is no axis %c in this geometry", "xyz"[axis]);
+  span(m, c, axis, -1, 0.0, 0.0, &low, &high);
+  *value = high - low;
+  return GAMUT_OK;
+}
+
+/* Width across `axis` at a distance from the foot (the lowest end) along `along`: of the points within
+ * one cell, so that there always are some; at the foot of those within half a cell. */
+static gamut_status diameter(struct model *m, const struct cloud *c,
+                             const struct gamut_values *arguments, double *value)
+{
+  const char *name = gamut_text(arguments, "along");
+  const int along = name[0] == 'x' ? 0 : name[0] == 'y' ? 1 : 2, axis = along == 0 ? 1 : 0;
+  const double part = gamut_real(arguments, "at");
+  double low = 0.0, high = 0.0, from = 0.0, to = 0.0;
+  if (along >= (int)m->dimension || axis >= (int)m->dimension)
+    return gamut_fail(m->run, GAMUT_SCENE, "a diameter needs two axes");
+  span(m, c, along, -1, 0.0, 0.0, &low, &high);
+  const bool now = strcmp(gamut_text(arguments, "of"), "current") == 0;
+  const double length = now ? high - low : c->body->spacing[along] * (double)c->body->count[along];
+  const double place = low + part * length;
+  for (double reach = 0.5; reach < 64.0; reach *= 2.0)
+    if (span(m, c, axis, along, place - reach * m->cell, place + reach * m->cell, &from, &to))
+      break;
+  *value = width(m, from, to, axis);
+  return GAMUT_OK;
+}
+
+static gamut_status field_pointer(struct model *m, const struct cloud *c, const char *name,
+                                  const double **value, double *sign)
+{
+  static const char *const stress[6] = {"stress_xx", "stress_yy", "stress_zz",
+                                        "stress_xy", "stress_yz", "stress_zx"};
+  static const char *const speed[3] = {"velocity_x", "velocity_y", "velocity_z"};
+  *sign = 1.0;
+  *value = NULL;
+  for (unsigned k = 0; k < 6; k++)
+    if (strcmp(name, stress[k]) == 0)
+      *value = c->stress[k];
+  for (unsigned k = 0; k < 3; k++)
+    if (strcmp(name, speed[k]) == 0)
+      *value = c->v[k];
+  if (*value != NULL)
+    return GAMUT_OK;
+  struct gamut_field field;
+  if (gamut_field_named(m->run, name, &field) != GAMUT_OK)
+    return GAMUT_SCENE;
+  *value = m->host->stored(c->set, field, 0);
+  return *value != NULL ? GAMUT_OK
+                        : gamut_fail(m->run, GAMUT_SCENE,
+                                     "the field '%s' is not kept in this scene, so it cannot be "
+                                     "measured; list it under outputs.fields", name);
+}
+
+static double sample(const struct cloud *c, const char *name, const double *field, size_t i)
+{
+  if (strcmp(name, "pressure") == 0)
+    return -(c->stress[0][i] + c->stress[1][i] + c->stress[2][i]) / 3.0;
+  return field[i];
+}
+
+enum reduce { FRONT, MEAN, MAXIMUM };
+
+/* Highest place, along an axis, of a point whose field is beyond the level; mean by volume; maximum. */
+static gamut_status over_field(struct model *m, const struct cloud *c, enum reduce how,
+                               const struct gamut_values *arguments, double *value)
+{
+  const char *name = gamut_text(arguments, "field");
+  const double *field = NULL;
+  double sign, sum = 0.0, weight = 0.0, most = -INFINITY;
+  if (strcmp(name, "pressure") != 0) {
+    const gamut_status status = field_pointer(m, c, name, &field, &sign);
+    if (status != GAMUT_OK)
+      return status;
+  }
+  const int axis = how == FRONT ? axis_of(arguments) : 0;
+  const double level = how == FRONT ? gamut_real(arguments, "level") : 0.0;
+  for (size_t i = 0; i < c->set->slots; i++) {
+    if (c->set->id[i] < 0)
+      continue;
+    const double here = sample(c, name, field, i), volume = c->mass[i] * c->ratio[i];
+    if (how == FRONT) {
+      if (here >= level && c->x[axis][i] > most)
+        most = c->x[axis][i];
+      sum = c->x[axis][i] < sum || weight == 0.0 ? c->x[axis][i] : sum;
+      weight = 1.0;
+    } else {
+      most = here > most ? here : most;
+      sum += volume * here;
+      weight += volume;
+    }
+  }
+  if (how == FRONT && !isfinite(most))
+    most = sum; /* nowhere yet: the body's lowest point */
+  *value = how == MEAN ? sum / weight : most;
+  return GAMUT_OK;
+}
+
+enum total { MASS, MOMENTUM, KINETIC, INTERNAL };
+
+static double total(const struct cloud *c, enum total what, int axis)
+{
+  double sum = 0.0;
+  for (size_t i = 0; i < c->set->slots; i++) {
+    const double mass = c->mass[i];
+    if (c->set->id[i] < 0)
+      continue;
+    if (what == MASS)
+      sum += mass;
+    else if (what == MOMENTUM)
+      sum += mass * c->v[axis][i];
+    else if (what == KINETIC)
+      sum += 0.5 * mass *
+             (c->v[0][i] * c->v[0][i] + c->v[1][i] * c->v[1][i] + c->v[2][i] * c->v[2][i]);
+    else if (c->energy != NULL)
+      sum += mass / c->body->density * c->energy[i];
+  }
+  return sum;
+}
+
+gamut_status measure_value(struct model *m, const char *name, const struct gamut_body *body,
+                           const struct gamut_values *arguments, double *value)
+{
+  const struct cloud c = cloud_of(m, body);
+  if (strcmp(name, "extent") == 0)
+    return extent(m, &c, axis_of(arguments), value);
+  if (strcmp(name, "diameter") == 0)
+    return diameter(m, &c, arguments, value);
+  if (strcmp(name, "front") == 0)
+    return over_field(m, &c, FRONT, arguments, value);
+  if (strcmp(name, "mean") == 0)
+    return over_field(m, &c, MEAN, arguments, value);
+  if (strcmp(name, "maximum") == 0)
+    return over_field(m, &c, MAXIMUM, arguments, value);
+  if (strcmp(name, "body_mass") == 0)
+    *value = total(&c, MASS, 0);
+  else if (strcmp(name, "momentum") == 0)
+    *value = total(&c, MOMENTUM, axis_of(arguments));
+  else if (strcmp(name, "mean_velocity") == 0)
+    *value = total(&c, MOMENTUM, axis_of(arguments)) / total(&c, MASS, 0);
+  else if (strcmp(name, "kinetic_energy") == 0)
+    *value = total(&c, KINETIC, 0);
+  else
+    *value = total(&c, INTERNAL, 0);
+  return GAMUT_OK;
+}

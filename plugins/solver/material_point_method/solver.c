@@ -1,0 +1,269 @@
+/* The operations of the solver: makes the model, starts it, chooses steps. */
+#include "material_point_method.gamut.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "model.h"
+
+/* No sound is faster; it bounds the first step, before the material was asked for its own. */
+static const double fastest_sound = 1e5;
+/* Points may move so far, in cells, before they are sorted. */
+static const double sort_after = 0.3, sort_before = 0.9;
+static const double growth = 1.1;
+
+gamut_status point_failed(struct model *m, const struct gamut_set *set, size_t slot,
+                          const double x[3], const double v[3], const char *what)
+{
+  return gamut_fail(m->run, GAMUT_NUMERICS,
+                    "point %lld of body '%s' was lost at t = %.6g s, step %llu of %.3g s: position "
+                    "(%.6g, %.6g, %.6g) m, velocity (%.6g, %.6g, %.6g) m/s; %s",
+                    (long long)set->id[slot], set->body, gamut_time(m->run),
+                    (unsigned long long)m->host->step(m->run), gamut_time_step(m->run), x[0], x[1],
+                    x[2], v[0], v[1], v[2], what);
+}
+
+static void destroy(void *self)
+{
+  struct model *m = self;
+  if (m == NULL)
+    return;
+  struct gamut_run *run = m->run;
+  planes_destroy(m);
+  grid_destroy(&m->grid);
+  for (int t = 0; m->work != NULL && t < m->threads; t++) {
+    if (m->work[t] == NULL)
+      continue;
+    gamut_release(run, m->work[t]->tile);
+    gamut_release(run, m->work[t]->sums);
+    gamut_release(run, m->work[t]->point_sum);
+    gamut_release(run, m->work[t]);
+  }
+  gamut_release(run, m->work);
+  gamut_release(run, m->body);
+  gamut_release(run, m->block_sum);
+  gamut_release(run, m->block_omega);
+  gamut_release(run, m->node_sum);
+  gamut_release(run, m->scratch_source);
+  gamut_release(run, m->scratch_block);
+  gamut_release(run, m->scratch_count);
+  gamut_release(run, m->scratch_cell);
+  gamut_release(run, m);
+}
+
+static gamut_status read_domain(struct model *m, const struct gamut_values *values)
+{
+  for (unsigned k = 0; k < 3; k++) {
+    m->lower[k] = -INFINITY;
+    m->upper[k] = INFINITY;
+  }
+  m->bounded = gamut_given(values, "domain");
+  if (!m->bounded)
+    return GAMUT_OK;
+  static const char *const path[2] = {"domain.min", "domain.max"};
+  for (int end = 0; end < 2; end++) {
+    size_t count;
+    if (!gamut_given(values, path[end]))
+      continue;
+    const double *place = gamut_vector(values, path[end], &count);
+    if (count != m->dimension)
+      return gamut_fail_at(m->run, values, path[end], "as many numbers as the geometry has axes",
+                           "%zu numbers where %u are due", count, m->dimension);
+    memcpy(end == 0 ? m->lower : m->upper, place, count * sizeof *place);
+  }
+  for (unsigned k = 0; k < m->dimension; k++)
+    if (!(m->lower[k] < m->upper[k]))
+      return gamut_fail_at(m->run, values, "domain", "min below max along every axis",
+                           "the domain is empty along %c", "xyz"[k]);
+  return GAMUT_OK;
+}
+
+static gamut_status read_values(struct model *m, const struct gamut_values *values)
+{
+  const char *geometry = gamut_text(values, "geometry"), *order = gamut_text(values, "order");
+  m->geometry = strcmp(geometry, "1d") == 0             ? GEOMETRY_1D
+                : strcmp(geometry, "plane_strain") == 0 ? GEOMETRY_PLANE_STRAIN
+                : strcmp(geometry, "axisymmetric") == 0 ? GEOMETRY_AXISYMMETRIC
+                                                        : GEOMETRY_3D;
+  m->dimension = m->geometry == GEOMETRY_1D ? 1 : m->geometry == GEOMETRY_3D ? 3 : 2;
+  m->order = strcmp(gamut_text(values, "shape"), "quadratic") == 0 ? 2 : 1;
+  m->second_pass = strcmp(order, "musl") == 0 || (strcmp(order, "auto") == 0 && m->order == 1);
+  m->cell = gamut_real(values, "cell");
+  m->courant = gamut_real(values, "courant");
+  m->pic = gamut_real(values, "transfer.pic");
+  m->fixed_step = gamut_given(values, "step") ? gamut_real(values, "step") : 0.0;
+  m->points_per_cell = 2;
+  m->transfer = transfer_of(m->dimension, m->order);
+  return read_domain(m, values);
+}
+
+static gamut_status find_fields(struct model *m)
+{
+  struct fields *f = &m->field;
+  const struct {
+    const char *name;
+    struct gamut_field *field;
+  } wanted[] = {{"position", &f->position},
+                {"velocity", &f->velocity},
+                {"mass", &f->mass},
+                {"reference_volume", &f->reference_volume},
+                {"volume_ratio", &f->volume_ratio},
+                {"stress", &f->stress},
+                {"energy", &f->energy},
+                {"velocity_gradient", &f->velocity_gradient},
+                {"external_force", &f->external_force},
+                {"sound_speed", &f->sound_speed},
+                {"omega_squared", &f->omega_squared},
+                {"cell_size", &f->cell_size}};
+  gamut_status status = GAMUT_OK;
+  for (size_t i = 0; i < sizeof wanted / sizeof *wanted && status == GAMUT_OK; i++)
+    status = gamut_field_named(m->run, wanted[i].name, wanted[i].field);
+  return status;
+}
+
+static gamut_status make_work(struct model *m)
+{
+  static const char label[] = "work space of threads";
+  const size_t tile = m->grid.tile_nodes * LINE * sizeof(double);
+  m->threads = gamut_threads(m->run);
+  m->work = gamut_allocate(m->run, label, (size_t)m->threads * sizeof(*m->work));
+  if (m->work == NULL)
+    return GAMUT_INTERNAL;
+  for (int t = 0; t < m->threads; t++) {
+    struct work *w = gamut_allocate(m->run, label, sizeof *w);
+    m->work[t] = w;
+    if (w == NULL)
+      return GAMUT_INTERNAL;
+    w->tile = gamut_allocate(m->run, label, tile);
+    w->sums = gamut_allocate(m->run, label, tile);
+    w->point_sum = gamut_allocate(m->run, label, POINT_SUMS * GAMUT_LANES * sizeof(double));
+    if (w->tile == NULL || w->sums == NULL || w->point_sum == NULL)
+      return GAMUT_INTERNAL;
+    for (unsigned k = 0; k < 3; k++) {
+      w->lower[k] = k < m->dimension ? m->grid.tile : 0;
+      w->upper[k] = k < m->dimension ? 0 : 1;
+    }
+  }
+  return GAMUT_OK;
+}
+
+static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
+{
+  struct model *m = gamut_allocate(run, "solver", sizeof *m);
+  if (m == NULL)
+    return GAMUT_INTERNAL;
+  m->run = run;
+  m->host = GAMUT_HOST(run);
+  gamut_status status = read_values(m, values);
+  if (status == GAMUT_OK)
+    status = grid_create(&m->grid, run, m->dimension, m->order, m->cell);
+  if (status == GAMUT_OK)
+    status = make_work(m);
+  if (status == GAMUT_OK)
+    status = find_fields(m);
+  if (status == GAMUT_OK)
+    status = layout_bodies(m, values);
+  if (status == GAMUT_OK)
+    status = step_register(m);
+  if (status == GAMUT_OK)
+    status = ledger_open(m);
+  if (status == GAMUT_OK && m->geometry == GEOMETRY_AXISYMMETRIC) {
+    const struct gamut_plane axis = {.normal = {1.0, 0.0, 0.0},
+                                     .normal_rule = GAMUT_PLANE_MIRROR,
+                                     .tangential_rule = GAMUT_PLANE_MIRROR};
+    status = planes_add(m, &axis, NULL);
+  }
+  if (status != GAMUT_OK) {
+    destroy(m);
+    return status;
+  }
+  *self = m;
+  return GAMUT_OK;
+}
+
+static gamut_status start(void *self)
+{
+  struct model *m = self;
+  m->host->set_uniform(m->run, m->field.cell_size, m->cell);
+  gamut_status status = planes_fix_origin(m);
+  if (status != GAMUT_OK)
+    return status;
+  layout_origin(m);
+  status = layout_fill(m);
+  if (status == GAMUT_OK)
+    status = sort_points(m);
+  for (size_t i = 0; i < m->bodies && status == GAMUT_OK; i++)
+    status = m->host->start_material(m->run, m->body[i].set);
+  if (status == GAMUT_OK)
+    status = step_first_scatter(m);
+  if (status == GAMUT_OK)
+    ledger_start(m);
+  return status;
+}
+
+/* The step by what the points allow; the first one knows no sound speed yet and is short. */
+static double allowed_step(const struct model *m)
+{
+  if (m->fixed_step > 0.0)
+    return m->fixed_step;
+  if (m->taken == 0)
+    return m->courant * m->cell / (fastest_sound + m->nodes.speed);
+  const double step = m->omega_squared > 0.0 ? 2.0 * m->courant / sqrt(m->omega_squared) : INFINITY;
+  return m->taken == 1 ? step : fmin(step, growth * m->last_step);
+}
+
+static gamut_status next(void *self, double *step)
+{
+  struct model *m = self;
+  const double left = *step;
+  *step = fmin(allowed_step(m), left);
+  /* the last two steps share what is left, so that none is tiny */
+  if (m->fixed_step == 0.0 && *step < left && left < 2.0 * *step)
+    *step = 0.5 * left;
+  const double ahead = m->nodes.speed * *step / m->cell;
+  if (m->moved <= sort_after && m->moved + ahead <= sort_before)
+    return GAMUT_OK;
+  if (m->taken == 0 || m->moved == 0.0)
+    return GAMUT_OK;
+  step_collect(m);
+  m->collected = true;
+  return sort_points(m);
+}
+
+static gamut_status after(void *self)
+{
+  struct model *m = self;
+  const double step = gamut_time_step(m->run);
+  m->omega_squared = 0.0;
+  for (size_t s = 0; s < m->grid.sources; s++)
+    m->omega_squared = fmax(m->omega_squared, m->block_omega[s]);
+  m->last_step = step;
+  m->taken++;
+  ledger_keep(m, step);
+  return GAMUT_OK;
+}
+
+static gamut_status plane(void *self, const struct gamut_plane *given,
+                          const struct gamut_reaction **reaction)
+{
+  return planes_add(self, given, reaction);
+}
+
+static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
+                            const struct gamut_values *arguments, double *value)
+{
+  return measure_value(self, name, body, arguments, value);
+}
+
+static gamut_status describe(void *self, double *step, char *text, size_t size)
+{
+  struct model *m = self;
+  (void)step;
+  if (size > 0)
+    strncpy(text, m->fixed_step > 0.0 ? "the scene (step)" : "sound crossing a cell", size - 1);
+  return GAMUT_OK;
+}
+
+GAMUT_SOLVER(material_point_method, .create = create, .destroy = destroy, .start = start,
+             .next = next, .after = after, .plane = plane, .measure = measure,
+             .describe = describe)

@@ -1,0 +1,53 @@
+/* Sums over the points of a chunk, by lane, for the ledger. */
+#include "model.h"
+
+void sums_motion(struct work *w, const struct point_view *p, const double *energy)
+{
+  double *restrict sum = w->point_sum;
+  const double over = energy == NULL ? 0.0 : 1.0 / p->density;
+  const double *e = energy == NULL ? p->mass : energy;
+#define ADD(quantity, value) sum[(quantity)*GAMUT_LANES + l] += (value)
+  for (size_t i = 0; i < p->count; i += GAMUT_LANES) {
+#pragma omp simd
+    for (size_t l = 0; l < GAMUT_LANES; l++) {
+      const size_t j = i + l;
+      const double mass = p->mass[j];
+      const double x = p->position[0][j], y = p->position[1][j], z = p->position[2][j];
+      const double u = p->velocity[0][j], v = p->velocity[1][j], t = p->velocity[2][j];
+      ADD(SUM_MASS, mass);
+      ADD(SUM_MOMENTUM, mass * u);
+      ADD(SUM_MOMENTUM + 1, mass * v);
+      ADD(SUM_MOMENTUM + 2, mass * t);
+      ADD(SUM_SPIN, mass * (y * t - z * v));
+      ADD(SUM_SPIN + 1, mass * (z * u - x * t));
+      ADD(SUM_SPIN + 2, mass * (x * v - y * u));
+      ADD(SUM_KINETIC, 0.5 * mass * (u * u + v * v + t * t));
+      ADD(SUM_INTERNAL, mass * over * e[j]);
+    }
+  }
+}
+
+void sums_forces(struct work *w, const struct point_view *p)
+{
+  double *restrict sum = w->point_sum;
+  for (size_t i = 0; i < p->count; i += GAMUT_LANES) {
+#pragma omp simd
+    for (size_t l = 0; l < GAMUT_LANES; l++) {
+      const size_t j = i + l;
+      const double mass = p->mass[j], real = mass > 0.0 ? 1.0 : 0.0;
+      const double x = p->position[0][j], y = p->position[1][j], z = p->position[2][j];
+      const double a = real * p->force[0][j], b = real * p->force[1][j],
+                   c = real * p->force[2][j];
+      ADD(SUM_FORCE, a);
+      ADD(SUM_FORCE + 1, b);
+      ADD(SUM_FORCE + 2, c);
+      ADD(SUM_TORQUE, y * c - z * b);
+      ADD(SUM_TORQUE + 1, z * a - x * c);
+      ADD(SUM_TORQUE + 2, x * b - y * a);
+      ADD(SUM_POWER,
+          a * p->velocity[0][j] + b * p->velocity[1][j] + c * p->velocity[2][j]);
+      ADD(SUM_MOBILITY, real * 0.5 * (a * a + b * b + c * c) / (mass > 0.0 ? mass : 1.0));
+    }
+  }
+#undef ADD
+}

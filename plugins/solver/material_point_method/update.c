@@ -1,0 +1,158 @@
+/* The update of the grid, as tasks done once a step. */
+#include <math.h>
+#include <string.h>
+
+#include "model.h"
+
+enum { BLOCK_NODES_MAX = 64 };
+
+void step_collect(struct model *m)
+{
+  struct grid *g = &m->grid;
+#pragma omp parallel for schedule(static) num_threads(m->threads)
+  for (size_t b = 0; b < g->blocks; b++)
+    grid_collect(g, &g->block[b], g->line + b * g->block_nodes * LINE);
+}
+
+/* A node that takes no part: what it held is lost, and said to be. */
+static void lose(const struct model *m, const double *line, const double x[3], double step,
+                 struct node_sums *s)
+{
+  for (int k = 0; k < 3; k++) {
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    s->lost[k] += step * line[LINE_FORCE + k] + m->pic * line[LINE_MOMENTUM + k];
+    s->spin_after[k] += x[a] * (line[LINE_MOMENTUM + b] + step * line[LINE_FORCE + b]) -
+                        x[b] * (line[LINE_MOMENTUM + a] + step * line[LINE_FORCE + a]);
+  }
+}
+
+static void update_node(const struct model *m, double *line, const double x[3], double step,
+                        struct node_sums *s)
+{
+  const double mass = line[LINE_MASS], mark = line[LINE_MARK];
+  double v[3] = {0.0, 0.0, 0.0}, change[3] = {0.0, 0.0, 0.0};
+  if (mass > m->grid.empty) {
+    const double over = 1.0 / mass;
+    for (int k = 0; k < 3; k++) {
+      change[k] = step * line[LINE_FORCE + k] * over;
+      v[k] = line[LINE_MOMENTUM + k] * over + change[k];
+    }
+    if (mark == 0.0) {
+      double before = 0.0, after = 0.0, work = 0.0;
+      for (int k = 0; k < 3; k++) {
+        const double old = v[k] - change[k];
+        before += old * old;
+        after += v[k] * v[k];
+        work += line[LINE_FORCE + k] * (v[k] - 0.5 * change[k]);
+        s->speed = fabs(v[k]) > s->speed ? fabs(v[k]) : s->speed;
+      }
+      s->kinetic_before += 0.5 * mass * before;
+      s->kinetic_after += 0.5 * mass * after;
+      s->work += step * work;
+      s->spin_after[0] += mass * (x[1] * v[2] - x[2] * v[1]);
+      s->spin_after[1] += mass * (x[2] * v[0] - x[0] * v[2]);
+      s->spin_after[2] += mass * (x[0] * v[1] - x[1] * v[0]);
+    }
+  } else if (mark == 0.0 && mass > 0.0) {
+    lose(m, line, x, step, s);
+  }
+  for (int k = 0; k < 3; k++) {
+    line[LINE_VELOCITY + k] = v[k];
+    line[LINE_CHANGE + k] = change[k];
+  }
+  line[LINE_SHARE] = mass;
+  line[LINE_MARK] = 0.0;
+}
+
+static void update_block(struct model *m, size_t b, double step)
+{
+  struct node_sums sums = {0};
+  const struct node_block *block = &m->grid.block[b];
+  double *lines = m->grid.line + b * m->grid.block_nodes * LINE;
+  for (size_t i = 0; i < m->grid.block_nodes; i++) {
+    int32_t node[3];
+    double x[3];
+    grid_node(&m->grid, block, i, node);
+    for (unsigned k = 0; k < 3; k++)
+      x[k] = k < m->dimension ? m->grid.origin[k] + m->cell * node[k] : 0.0;
+    update_node(m, lines + i * LINE, x, step, &sums);
+  }
+  m->node_sum[b] = sums;
+}
+
+static void add_nodes(struct node_sums *to, const struct node_sums *from)
+{
+  to->kinetic_before += from->kinetic_before;
+  to->kinetic_after += from->kinetic_after;
+  to->work += from->work;
+  for (int k = 0; k < 3; k++) {
+    to->spin_after[k] += from->spin_after[k];
+    to->lost[k] += from->lost[k];
+  }
+  to->speed = fmax(to->speed, from->speed);
+}
+
+gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
+{
+  (void)chunk;
+  struct model *m = self;
+  const double step = gamut_time_step(m->run);
+  if (m->planes.any_moves && planes_find(m) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  if (!m->collected)
+    step_collect(m);
+  m->collected = false;
+  planes_before_update(m);
+#pragma omp parallel for schedule(static) num_threads(m->threads)
+  for (size_t b = 0; b < m->grid.blocks; b++)
+    update_block(m, b, step);
+  memset(&m->nodes, 0, sizeof m->nodes);
+  for (size_t b = 0; b < m->grid.blocks; b++)
+    add_nodes(&m->nodes, &m->node_sum[b]);
+  planes_after_update(m, step);
+  m->moved += m->nodes.speed * step / m->cell;
+  return GAMUT_OK;
+}
+
+/* Momentum projected anew: the first velocity moves to the place of the change. */
+static void second_block(struct model *m, size_t b)
+{
+  double sum[BLOCK_NODES_MAX * LINE] __attribute__((aligned(64)));
+  double *lines = m->grid.line + b * m->grid.block_nodes * LINE;
+  grid_collect(&m->grid, &m->grid.block[b], sum);
+  for (size_t i = 0; i < m->grid.block_nodes; i++) {
+    double *line = lines + i * LINE;
+    const double *from = sum + i * LINE;
+    for (int k = 0; k < 3; k++) {
+      line[LINE_CHANGE + k] = line[LINE_VELOCITY + k];
+      line[LINE_VELOCITY + k] = from[LINE_MOMENTUM + k];
+    }
+    line[LINE_SHARE] = from[LINE_MASS];
+  }
+}
+
+static void divide_block(struct model *m, size_t b)
+{
+  double *lines = m->grid.line + b * m->grid.block_nodes * LINE;
+  for (size_t i = 0; i < m->grid.block_nodes; i++) {
+    double *line = lines + i * LINE;
+    const double over = line[LINE_SHARE] > m->grid.empty ? 1.0 / line[LINE_SHARE] : 0.0;
+    for (int k = 0; k < 3; k++)
+      line[LINE_VELOCITY + k] *= over;
+  }
+}
+
+gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
+{
+  (void)chunk;
+  struct model *m = self;
+#pragma omp parallel for schedule(static) num_threads(m->threads)
+  for (size_t b = 0; b < m->grid.blocks; b++)
+    second_block(m, b);
+  planes_before_second(m);
+#pragma omp parallel for schedule(static) num_threads(m->threads)
+  for (size_t b = 0; b < m->grid.blocks; b++)
+    divide_block(m, b);
+  planes_after_second(m);
+  return GAMUT_OK;
+}
