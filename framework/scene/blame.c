@@ -112,10 +112,11 @@ void warn_value(struct reading *reading, const struct tree *node, const char *ex
 
 char *list_text(const char *const *name, size_t count, char *buffer, size_t size)
 {
+  enum { LIST_MAX = 20 };
   size_t length = 0;
   buffer[0] = 0;
   for (size_t i = 0; i < count && length < size; i++) {
-    if (size - length < 80) {
+    if (size - length < 80 || i == LIST_MAX) {
       snprintf(buffer + length, size - length, " ...");
       break;
     }
@@ -188,6 +189,8 @@ void blame_unknown(struct reading *reading, const struct tree *child,
     known[i] = i < others ? also[i] : parameter[i - others].name;
   const char *found = elsewhere(reading, child->key, parameter, count, true, where, sizeof where);
   const char *near = nearest(child->key, known, count + others);
+  if (near && !found && reading->guesses < GUESSES_MAX)
+    reading->guess[reading->guesses++] = (struct guess){child->parent, near};
   if (found) {
     snprintf(expected, sizeof expected, "'%s' belongs %s", found, where);
   } else if (near) {
@@ -203,6 +206,14 @@ void blame_unknown(struct reading *reading, const struct tree *child,
   blame_key(reading, child, count + others || found ? expected : NULL, "unknown key '%s' in %s",
             child->key, what);
   free(known);
+}
+
+bool was_meant(const struct reading *reading, const struct tree *mapping, const char *name)
+{
+  for (size_t i = 0; i < reading->guesses; i++)
+    if (reading->guess[i].mapping == mapping && strcmp(reading->guess[i].name, name) == 0)
+      return true;
+  return false;
 }
 
 bool expect_mapping(struct reading *reading, const struct tree *node, const char *what)

@@ -69,6 +69,8 @@ static void material_find(struct reading *reading, const struct tree *node, cons
   char expected[WORDS_SIZE], path[PATH_SIZE];
   const struct tree *given = tree_get(node, "material");
   if (!given) {
+    if (was_meant(reading, node, "material"))
+      return;
     snprintf(path, sizeof path, "bodies.%s.material", body->name);
     blame_missing(reading, node, path, "the name of one of the materials",
                   "'material' is missing in %s", what);
@@ -84,7 +86,7 @@ static void material_find(struct reading *reading, const struct tree *node, cons
       found = true;
     }
   }
-  if (name && !found)
+  if (name && !found && scene->materials)
     blame_value(reading, given, suggest(name, known, scene->materials, expected, sizeof expected),
                 "unknown material '%.60s'", name);
   free(known);
@@ -135,11 +137,11 @@ static void body_read(struct reading *reading, const struct tree *node, struct g
   initial_read(reading, node, path, what, body);
 
   const struct tree *velocity = tree_get(node, "velocity"), *shape = tree_get(node, "shape");
-  if (velocity)
+  if (velocity && !reading->lost)
     velocity_read(reading, velocity, body);
-  if (shape) {
+  if (shape && !reading->lost) {
     shape_read(reading, shape, &body->shape);
-  } else if (reading->axes) {
+  } else if (reading->axes && !was_meant(reading, node, "shape")) {
     char missing[PATH_SIZE + 8];
     snprintf(missing, sizeof missing, "%s.shape", path);
     blame_missing(reading, node, missing, "shape: {box:}, {cylinder:} or {sphere:}",
@@ -152,7 +154,7 @@ void bodies_read(struct reading *reading, const struct tree *root)
   struct scene *scene = reading->scene;
   const struct tree *node = tree_get(root, "bodies");
   if (!node) {
-    if (!is_card(root))
+    if (!is_card(root) && !was_meant(reading, root, "bodies"))
       blame_missing(reading, root, "bodies", "bodies: {NAME: {material:, shape:, ...}}",
                     "'bodies' is missing");
     return;

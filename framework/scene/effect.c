@@ -30,7 +30,7 @@ static const char **select_read(struct reading *reading, const struct tree *node
 {
   char expected[WORDS_SIZE];
   const char **name = names_read(reading, node, node->key, selected);
-  for (size_t i = 0; i < *selected; i++)
+  for (size_t i = 0; i < *selected && count; i++)
     if (!has_name(known, count, name[i])) {
       const struct tree *item = node;
       for (size_t k = 0; k < node->children; k++)

@@ -31,6 +31,10 @@ static void blame_model(struct reading *reading, enum gamut_kind kind, const str
     if (descriptor->kind == kind)
       name[count++] = descriptor->name;
   }
+  if (was_meant(reading, node, "model")) {
+    free(name);
+    return;
+  }
   snprintf(expected, sizeof expected, "installed: %s", list_text(name, count, list, sizeof list));
   char path[PATH_SIZE - 16], model[PATH_SIZE];
   tree_path(node, path, sizeof path);
@@ -118,12 +122,15 @@ void solver_read(struct reading *reading, const struct tree *root)
   const struct tree *node = tree_get(root, "solver");
   struct scene *scene = reading->scene;
   if (!node) {
-    if (!is_card(root))
+    reading->lost = true;
+    if (!is_card(root) && !was_meant(reading, root, "solver"))
       blame_missing(reading, root, "solver", "solver: {model: NAME, ...}", "'solver' is missing");
     return;
   }
   geometry_peek(reading, node);
   instance_read(reading, GAMUT_KIND_SOLVER, "solver", node, NULL, 0, &scene->solver);
+  const struct descriptor *solver = scene->solver.descriptor;
+  reading->lost = !solver || (reading->axes == 0 && descriptor_parameter(solver, "geometry") >= 0);
   const struct value *end = values_find(scene->solver.values, "end");
   if (end && end->present && end->parameter->type == VALUE_REAL && !(end->real > 0))
     blame_value(reading, end->node, "greater than 0", "the run ends before it begins");

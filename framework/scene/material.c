@@ -175,7 +175,8 @@ void materials_read(struct reading *reading, const struct tree *root)
   const struct tree *node = tree_get(root, "materials");
   size_t extras;
   if (!node) {
-    blame_missing(reading, root, "materials", "materials: {NAME: {density:, eos:, ...}}",
+    if (!was_meant(reading, root, "materials"))
+      blame_missing(reading, root, "materials", "materials: {NAME: {density:, eos:, ...}}",
                   "'materials' is missing");
     return;
   }

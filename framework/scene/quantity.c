@@ -57,7 +57,8 @@ static void blame_measure(struct reading *reading, const struct tree *node,
       if (!has_name(name, names, list[i].descriptor->measure[k].name))
         name[names++] = list[i].descriptor->measure[k].name;
   for (size_t i = 0; i < known_fields; i++)
-    name[names++] = field[i];
+    if (!has_name(name, names, field[i]))
+      name[names++] = field[i];
   blame_value(reading, node, suggest(node->text, name, names, expected, sizeof expected),
               "unknown measure '%.60s'", node->text);
   free(name);
@@ -119,7 +120,8 @@ static bool measure_find(struct reading *reading, const struct tree *node, const
                 "measure '%s' is offered by several effects", node->text);
     quantity->measure = NULL;
   } else if (!found && (effect || !plain_field(reading, node->text, quantity))) {
-    blame_measure(reading, node, list, count, !effect);
+    if (!reading->lost || effect)
+      blame_measure(reading, node, list, count, !effect);
   }
   free(list);
   return quantity->measure != NULL;
@@ -136,7 +138,7 @@ static bool body_find(struct reading *reading, const struct tree *node, int *bod
       *body = (int)i;
       return true;
     }
-  if (name)
+  if (name && reading->body)
     blame_value(reading, node,
                 suggest(name, reading->body, reading->bodies, expected, sizeof expected),
                 "unknown body '%.60s'", name);
@@ -164,11 +166,13 @@ static void point_read(struct reading *reading, const struct tree *at, struct qu
 {
   const struct tree *point = tree_get(at, "point"), *follow = tree_get(at, "follow");
   size_t count, axes = reading->axes ? reading->axes : 3;
+  if (reading->lost)
+    return;
   double *number = point ? vector_read(reading, point, "point", "m", axes, axes, &count) : NULL;
   if (number) {
     memcpy(quantity->point, number, count * sizeof *number);
     quantity->has_point = true;
-  } else if (!point && reading->axes) {
+  } else if (!point && reading->axes && !was_meant(reading, at, "point")) {
     blame_key(reading, at, "at: {body:, point: [..], follow: material | space}",
               "'point' is missing in 'at'");
   }
@@ -205,7 +209,7 @@ static void at_read(struct reading *reading, const struct tree *node, struct qua
     expect_keys(reading, at, known, COUNT_OF(known), "'at'");
     body_default(reading, tree_get(at, "body") ? at : node, quantity);
     point_read(reading, at, quantity);
-  } else if (reading->axes) {
+  } else if (reading->axes && !was_meant(reading, node, "at")) {
     blame_key(reading, node, "at: {body:, point: [..], follow: material | space}",
               "'at' is missing in quantity '%s': '%s' is a measure of points", quantity->name,
               quantity->measure->name);
@@ -236,8 +240,12 @@ static void quantity_read(struct reading *reading, const struct tree *node,
   tree_path(node, path, sizeof path);
   const struct tree *measure = tree_get(node, "measure");
   if (!measure) {
-    expect_keys(reading, node, own_keys, COUNT_OF(own_keys), what);
     char missing[PATH_SIZE + 16];
+    for (size_t i = 0; i < node->children; i++)
+      if (nearest(node->child[i]->key, own_keys, 1))
+        blame_unknown(reading, node->child[i], NULL, 0, own_keys, COUNT_OF(own_keys), what);
+    if (was_meant(reading, node, "measure"))
+      return;
     snprintf(missing, sizeof missing, "%s.measure", path);
     blame_missing(reading, node, missing, "'gamut show' of the solver lists its measures",
                   "'measure' is missing in %s", what);

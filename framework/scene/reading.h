@@ -24,7 +24,13 @@ struct neighbour {
   const char *const *key;
   size_t keys;
 };
-enum { NEIGHBOURS_MAX = 8 };
+enum { NEIGHBOURS_MAX = 8, GUESSES_MAX = 32 };
+
+/* What a misspelt key of a mapping most likely stands for. */
+struct guess {
+  const struct tree *mapping;
+  const char *name;
+};
 
 struct reading {
   const struct units *units;
@@ -36,11 +42,14 @@ struct reading {
   size_t bodies;
   unsigned axes;                   /* of the geometry; 0: the solver has none */
   bool axisymmetric;
+  bool lost;                       /* no solver or geometry was understood: axes are unknown */
   bool random;                     /* some value is random */
   size_t faults;
   gamut_status first;              /* status of the first fault */
   struct neighbour neighbour[NEIGHBOURS_MAX];
   size_t neighbours;
+  struct guess guess[GUESSES_MAX];
+  size_t guesses;
 };
 
 /* Zeroed memory. A scene takes little: where there is none left, the program ends. */
@@ -67,6 +76,8 @@ char *list_text(const char *const *name, size_t count, char *buffer, size_t size
 /* A key that nobody knows here; suggests the nearest, also of groups below and of neighbours. */
 void blame_unknown(struct reading *, const struct tree *child, const struct parameter *, size_t count,
                    const char *const *also, size_t others, const char *what);
+/* Whether a key of the mapping that is a fault already was meant to be this one: it is not missed. */
+bool was_meant(const struct reading *, const struct tree *mapping, const char *name);
 void neighbour_add(struct reading *, const char *where, const struct parameter *, size_t parameters,
                    const char *const *key, size_t keys);
 /* Whether a node is a mapping; else a fault that says what it should be. */

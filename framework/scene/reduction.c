@@ -4,9 +4,8 @@
 
 #include "scene/reading.h"
 
-static const char forms[] = "at end, at 12 us, max, min, mean, {mean: [t0, t1]}, {max: [t0, t1]}, "
-                            "{min: [t0, t1]}, {slope: [t0, t1]}, {time_of: VALUE} or "
-                            "{time_of_max: [t0, t1]}";
+static const char forms[] = "at end, at 12 us, max, min, mean, {max: [t0, t1]} (also min, mean, "
+                            "slope, time_of_max), or {time_of: VALUE}";
 
 struct form {
   const char *name;
@@ -60,6 +59,13 @@ bool reduction_read(struct reading *reading, const struct tree *node, const char
     return scalar_read(reading, node, reduction);
   const struct tree *child = node->children == 1 ? node->child[0] : NULL;
   const struct form *form = child && child->key ? form_named(child->key) : NULL;
+  if (!form && child && child->key) {
+    const char *name[COUNT_OF(form_list)];
+    for (size_t i = 0; i < COUNT_OF(form_list); i++)
+      name[i] = form_list[i].name;
+    blame_unknown(reading, child, NULL, 0, name, COUNT_OF(form_list), "'reduce'");
+    return false;
+  }
   if (!form) {
     blame_value(reading, node, forms, "'reduce' is none of the known forms");
     return false;

@@ -66,6 +66,16 @@ static json_t *number(const struct parameter *parameter)
                    reference("random"));
 }
 
+static json_t *table(const struct parameter *parameter)
+{
+  json_t *file = object(json_pack("{s:{s:s}}", "file", "type", "string"), true);
+  json_t *forms = json_pack("[{s:s}, o]", "type", "array", file);
+  if (parameter->choices == 2)
+    json_array_append_new(
+        forms, reference(unit_is_pure(parameter->choice_unit[1]) ? "number" : "quantity"));
+  return json_pack("{s:o}", "anyOf", forms);
+}
+
 static json_t *parameters_schema(const struct parameter *, size_t count, json_t *into);
 
 static json_t *bare_schema(const struct parameter *parameter)
@@ -88,8 +98,7 @@ static json_t *bare_schema(const struct parameter *parameter)
     return list_of(reference(unit_is_pure(parameter->unit) ? "number" : "quantity"),
                    parameter->size_min, parameter->size_max);
   case VALUE_TABLE:
-    return json_pack("{s:[o, o]}", "anyOf", json_pack("{s:s}", "type", "array"),
-                     object(json_pack("{s:{s:s}}", "file", "type", "string"), true));
+    return table(parameter);
   case VALUE_GROUP:
     return object(parameters_schema(parameter->member, parameter->members, NULL), true);
   }

@@ -78,7 +78,7 @@ static bool place_read(struct reading *reading, const struct tree *mapping, cons
   size_t count;
   x[0] = x[1] = x[2] = 0;
   if (!node) {
-    if (required)
+    if (required && !was_meant(reading, mapping, key))
       blame_key(reading, mapping, NULL, "'%s' is missing in '%s'", key, mapping->key);
     return !required;
   }
@@ -95,7 +95,7 @@ static bool length_read(struct reading *reading, const struct tree *mapping, con
 {
   const struct tree *node = tree_get(mapping, key);
   if (!node) {
-    if (required)
+    if (required && !was_meant(reading, mapping, key))
       blame_key(reading, mapping, "a length with its unit, such as '5 mm'",
                 "'%s' is missing in '%s'", key, mapping->key);
     return !required;

@@ -198,6 +198,15 @@ static bool table_from_file(struct reading *reading, const struct parameter *par
   return fine;
 }
 
+/* One number where a curve may stand: a single row that begins with 0. */
+static bool table_of_one(struct reading *reading, const struct parameter *parameter,
+                         const struct tree *node, struct value *value)
+{
+  value->number = scene_take(2, sizeof *value->number);
+  value->numbers = 2;
+  return amount_read(reading, node, parameter->name, parameter->choice_unit[1], &value->number[1]);
+}
+
 bool table_read(struct reading *reading, const struct parameter *parameter,
                 const struct tree *node, struct value *value)
 {
@@ -205,6 +214,8 @@ bool table_read(struct reading *reading, const struct parameter *parameter,
     return table_from_file(reading, parameter, node, value);
   if (node->kind == TREE_SEQUENCE && node->children)
     return table_in_place(reading, parameter, node, value);
+  if (node->kind == TREE_SCALAR && parameter->choices == 2)
+    return table_of_one(reading, parameter, node, value);
   blame_value(reading, node, "rows in brackets, or {file: NAME.csv}",
               "'%s' is %s where a table is due", parameter->name,
               node->kind == TREE_SEQUENCE ? "an empty list" : "a plain value");

@@ -178,6 +178,8 @@ static void missing(struct reading *reading, const struct section *section,
                     const struct parameter *parameter)
 {
   char path[PATH_SIZE], expected[WORDS_SIZE] = "";
+  if (was_meant(reading, section->node, parameter->name))
+    return;
   snprintf(path, sizeof path, "%s%s%s", section->path, section->path[0] ? "." : "",
            parameter->name);
   if (parameter->type == VALUE_REAL && !unit_is_pure(parameter->unit))

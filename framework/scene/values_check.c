@@ -112,7 +112,11 @@ static void blame_sets(struct reading *reading, struct values *values,
                                i ? " or " : "give one of the sets ", one);
   }
   for (size_t i = 0; i < values->count && count < COUNT_OF(names); i++)
-    if (values->value[i].given && given_set_names(descriptor, values->parameter[i].name)) {
+    if (was_meant(reading, values->node, values->parameter[i].name) &&
+        given_set_names(descriptor, values->parameter[i].name)) {
+      return;
+    } else if (values->value[i].given &&
+               given_set_names(descriptor, values->parameter[i].name)) {
       names[count++] = values->parameter[i].name;
       last = values->value[i].node;
     }
@@ -120,7 +124,7 @@ static void blame_sets(struct reading *reading, struct values *values,
   if (given == 0)
     blame_missing(reading, values->node, values->path, list, "%s lacks parameters", what);
   else
-    blame_key(reading, last, list, "%s: '%s' %s no whole set", what, one,
+    blame_key(reading, last, list, "%s: %s %s no set that it knows", what, one,
               given > 1 ? "together are" : "alone is");
 }
 
