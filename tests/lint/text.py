@@ -14,7 +14,7 @@ OWN_MACROS = "m4/gamut.m4"
 BROKEN = ("tests/bad_inputs/", "tests/bad_plugins/")
 
 PLACES = re.compile(r"(?<![\w.$})~-])/(home|root|tmp|work|Users|opt|mnt|usr/local|usr/share)/")
-TEMPORARY = re.compile(r"/tmp/[\w-]*XXXXXX")
+TEMPORARY = re.compile(r"/t[m]p/[\w-]*XXXXXX")
 UNFINISHED = re.compile(r"\b(TODO|FIXME|XXX|HACK|stub)\b")
 
 
@@ -64,8 +64,7 @@ tap.check("no blanks at the end of a line", bad_lines(TEXT, lambda s: s != s.rst
 tap.check("no tabs in C and YAML", bad_lines(CODE + (".yaml",), lambda s: "\t" in s))
 tap.check("sources are ASCII", bad_lines(CODE, lambda s: not s.isascii()))
 tap.check("no path of one machine",
-          bad_lines(TEXT + (".md",), lambda s: PLACES.search(TEMPORARY.sub("", s))
-                    and "PLACES" not in s))
+          bad_lines(TEXT + (".md",), lambda s: PLACES.search(TEMPORARY.sub("", s))))
 tap.check("nothing left unfinished",
           bad_lines(CODE + (".yaml",), lambda s: UNFINISHED.search(s)))
 long_files = [f"{p}: {n} lines" for p in sound(CODE + (".py", ".sh"))
