@@ -79,6 +79,8 @@ static void write_line(struct progress *p, double done, double time, uint64_t st
 void progress_tell(void *progress, double done, double time, uint64_t step, double rate)
 {
   struct progress *p = progress;
+  if (!p)
+    return;
   done = fmin(fmax(done, 0), 1);
   if (p->terminal) {
     fputc('\r', p->file);

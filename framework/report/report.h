@@ -10,6 +10,7 @@
 /* Progress on a terminal: one line rewritten, with share, time, steps, rate (point-steps/s) and
  * ETA; elsewhere one line a tenth. */
 struct progress;
+/* Null when out of memory; the others accept null. */
 struct progress *progress_new(FILE *, double end, const char *axis_unit);
 void progress_free(struct progress *); /* ends the line */
 void progress_tell(void *progress, double done, double time, uint64_t step, double rate);

@@ -58,8 +58,8 @@ static void write_quantity(const char *name, const json_t *quantity, int width, 
     return;
   }
   if (isnan(value)) {
-    fprintf(file, "no value%s%s\n", json_object_get(quantity, "why") ? ": " : "",
-            word(quantity, "why", ""));
+    fprintf(file, "no value%s%s\n", json_object_get(quantity, "reason") ? ": " : "",
+            word(quantity, "reason", ""));
     return;
   }
   fprintf(file, "%s", readable(value, unit, text, sizeof text));

@@ -61,7 +61,7 @@ static void test_summary(void)
   static const char json[] =
       "{\"quantities\": {\"final_length\": {\"unit\": \"m\", \"value\": 0.0162},"
       " \"pressure\": {\"unit\": \"Pa\", \"times\": [0, 1, 2], \"values\": [0, 2e9, 1e9]},"
-      " \"never\": {\"unit\": \"s\", \"value\": null, \"why\": \"it never reaches 5 Pa\"},"
+      " \"never\": {\"unit\": \"s\", \"value\": null, \"reason\": \"it never reaches 5 Pa\"},"
       " \"study\": {\"unit\": \"m\", \"mean\": 0.016, \"variance\": 1e-6, \"mean_error\": 1e-5}},"
       " \"ledger\": {\"mass\": {\"residual\": 1e-16, \"scale\": 0.01}},"
       " \"cost\": {\"points\": 1000, \"steps\": 200, \"wall_s\": 0.5, \"point_steps_per_s\": 4e5}}";
