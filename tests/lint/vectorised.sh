@@ -24,12 +24,12 @@ vectorises()
   local level=$1 file=$2 report lines
   shift 2
   number=$((number + 1))
-  # With -g the places are those of the loops. Patterns off: a loop that only stores zeros would
-  # become a memset, fast but not reported.
+  # With -g the places are those of the loops. Distribution off: a loop
+  # would be split, with one half vectorised, or become a memset, fast but not reported.
   # shellcheck disable=SC2086 # CC may hold flags
   if ! report=$($CC -std=gnu11 -g -O3 -fno-math-errno -fno-trapping-math -fopenmp-simd "$@" \
-    -fno-tree-loop-distribute-patterns -Iframework/include "-I$builddir/$(dirname "$file")" \
-    "-I$(dirname "$file")" -fopt-info-vec-optimized -S -o /dev/null "$file" 2>&1); then
+    -fno-tree-loop-distribute-patterns -fno-tree-loop-distribution -Iframework/include \
+    "-I$builddir/$(dirname "$file")" "-I$(dirname "$file")" -fopt-info-vec-optimized -S -o /dev/null "$file" 2>&1); then
     echo "not ok $number - $file compiles for $level"
     printf '%s\n' "$report" | head -n 20 | sed 's/^/# /'
     return
