@@ -135,6 +135,7 @@ struct gamut_reaction {
                       the geometry has it) */
   double work;     /* done by the plane on the matter since the start, J */
   double area;     /* in contact, m2 */
+  double impulse[3]; /* on the plane by the matter since the start, N s */
 };
 
 /* ---- ledger ---------------------------------------------------------------------------------- */

@@ -252,8 +252,10 @@ void planes_after_update(struct model *m, double step)
   book(m, step);
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++) {
       p->reaction->force[k] = -p->impulse[k] / step;
+      p->reaction->impulse[k] -= p->impulse[k];
+    }
     p->reaction->area = p->area;
   }
 }

@@ -1,0 +1,122 @@
+#include <string.h>
+
+#include "boundary.gamut.h"
+
+struct boundary_effect {
+  struct gamut_plane plane;
+  const struct gamut_reaction *reaction; /* null for a traction */
+  double traction[3], depth;
+  struct gamut_field position, volume, ratio, force;
+};
+
+static void copy(const struct gamut_values *values, const char *path, double to[3])
+{
+  size_t count = 0;
+  const double *from = gamut_vector(values, path, &count);
+  for (size_t k = 0; k < count && k < 3; k++)
+    to[k] = from[k];
+}
+
+static gamut_status pull(void *self, const struct gamut_chunk *chunk)
+{
+  const struct boundary_effect *b = self;
+  const double *volume = gamut_begin(chunk, b->volume, 0), *ratio = gamut_end(chunk, b->ratio, 0);
+  const double *x = gamut_end(chunk, b->position, 0), *y = gamut_end(chunk, b->position, 1),
+               *z = gamut_end(chunk, b->position, 2);
+  const double *p = b->plane.point, *n = b->plane.normal;
+  for (int k = 0; k < 3; k++) {
+    double *force = gamut_end(chunk, b->force, (unsigned)k);
+    const double each = b->traction[k] / b->depth;
+    GAMUT_EACH (i, chunk) {
+      const double d = (x[i] - p[0]) * n[0] + (y[i] - p[1]) * n[1] + (z[i] - p[2]) * n[2];
+      force[i] += d >= 0.0 && d <= b->depth ? each * volume[i] * ratio[i] : 0.0;
+    }
+  }
+  return GAMUT_OK;
+}
+
+static gamut_status add_traction(struct gamut_run *run, const struct gamut_values *values,
+                                 struct boundary_effect *b)
+{
+  static const struct gamut_use uses[] = {{"position", GAMUT_READ},
+                                          {"reference_volume", GAMUT_READ_BEGIN},
+                                          {"volume_ratio", GAMUT_READ},
+                                          {"external_force", GAMUT_ADD}};
+  static const char *const name[] = {"position", "reference_volume", "volume_ratio",
+                                     "external_force"};
+  struct gamut_field *const field[] = {&b->position, &b->volume, &b->ratio, &b->force};
+  if (!gamut_given(values, "traction") || !gamut_given(values, "depth"))
+    return gamut_fail_at(run, values, gamut_given(values, "traction") ? "depth" : "traction",
+                         "traction: [..] and depth:", "a traction needs both");
+  copy(values, "traction", b->traction);
+  b->depth = gamut_real(values, "depth");
+  for (int k = 0; k < 4; k++) {
+    const gamut_status status = gamut_field_named(run, name[k], field[k]);
+    if (status != GAMUT_OK)
+      return status;
+  }
+  const struct gamut_task task = {.name = "traction",
+                                  .phase = "forces",
+                                  .extent = GAMUT_PER_CHUNK,
+                                  .uses = uses,
+                                  .use_count = sizeof uses / sizeof *uses,
+                                  .run = pull,
+                                  .self = b};
+  return gamut_add_task(run, &task);
+}
+
+static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
+{
+  const char *kind = gamut_text(values, "kind");
+  const bool symmetry = strcmp(kind, "symmetry") == 0, moves = strcmp(kind, "velocity") == 0;
+  struct boundary_effect *b = gamut_allocate(run, "boundary", sizeof *b);
+  if (b == NULL)
+    return GAMUT_INTERNAL;
+  copy(values, "plane.point", b->plane.point);
+  copy(values, "plane.normal", b->plane.normal);
+  b->plane.normal_rule = symmetry ? GAMUT_PLANE_MIRROR : GAMUT_PLANE_PRESCRIBED;
+  b->plane.tangential_rule = symmetry ? GAMUT_PLANE_MIRROR : GAMUT_PLANE_PRESCRIBED;
+  const double *n = b->plane.normal, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  for (int k = 0; k < 3 && length > 0.0; k++)
+    b->plane.normal[k] /= length;
+  gamut_status status;
+  if (!(length > 0.0)) {
+    status = gamut_fail_at(run, values, "plane.normal", "a direction towards the matter",
+                           "the normal has no length");
+  } else if (strcmp(kind, "traction") == 0) {
+    status = add_traction(run, values, b);
+  } else if (moves && !gamut_given(values, "velocity")) {
+    status = gamut_fail_at(run, values, "velocity", "velocity: [..]", "it is missing");
+  } else {
+    if (moves)
+      copy(values, "velocity", b->plane.velocity);
+    status = GAMUT_HOST(run)->plane(run, &b->plane, &b->reaction);
+  }
+  if (status != GAMUT_OK)
+    gamut_release(run, b);
+  else
+    *self = b;
+  return status;
+}
+
+static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
+                            const struct gamut_values *arguments, double *value)
+{
+  (void)body;
+  const struct boundary_effect *b = self;
+  static const struct gamut_reaction none = {.area = 0.0};
+  const struct gamut_reaction *r = b->reaction != NULL ? b->reaction : &none;
+  if (strcmp(name, "normal_force") == 0) {
+    *value = 0.0;
+    for (int k = 0; k < 3; k++)
+      *value -= r->force[k] * b->plane.normal[k];
+  } else if (strcmp(name, "work") == 0) {
+    *value = r->work;
+  } else {
+    const int axis = gamut_text(arguments, "axis")[0] - 'x';
+    *value = strcmp(name, "force") == 0 ? r->force[axis] : r->impulse[axis];
+  }
+  return GAMUT_OK;
+}
+
+GAMUT_EFFECT(boundary, .create = create, .measure = measure)

@@ -1,0 +1,68 @@
+#include <string.h>
+
+#include "rigid_wall.gamut.h"
+
+struct wall {
+  double normal[3];
+  const struct gamut_reaction *reaction;
+};
+
+static void copy(const struct gamut_values *values, const char *path, double to[3])
+{
+  size_t count = 0;
+  const double *from = gamut_vector(values, path, &count);
+  for (size_t k = 0; k < count && k < 3; k++)
+    to[k] = from[k];
+}
+
+static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
+{
+  struct gamut_plane plane = {.normal_rule = GAMUT_PLANE_MIRROR,
+                              .tangential_rule = GAMUT_PLANE_MIRROR,
+                              .unilateral = gamut_boolean(values, "unilateral"),
+                              .friction = gamut_real(values, "friction")};
+  struct wall *wall = gamut_allocate(run, "rigid wall", sizeof *wall);
+  if (wall == NULL)
+    return GAMUT_INTERNAL;
+  copy(values, "plane.point", plane.point);
+  copy(values, "plane.normal", plane.normal);
+  copy(values, "velocity", plane.velocity);
+  const double *n = plane.normal, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+  gamut_status status;
+  if (length > 0.0) {
+    for (int k = 0; k < 3; k++)
+      wall->normal[k] = plane.normal[k] /= length;
+    status = GAMUT_HOST(run)->plane(run, &plane, &wall->reaction);
+  } else {
+    status = gamut_fail_at(run, values, "plane.normal", "a direction towards the matter",
+                           "the normal has no length");
+  }
+  if (status != GAMUT_OK)
+    gamut_release(run, wall);
+  else
+    *self = wall;
+  return status;
+}
+
+static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
+                            const struct gamut_values *arguments, double *value)
+{
+  (void)body;
+  const struct wall *wall = self;
+  const struct gamut_reaction *r = wall->reaction;
+  if (strcmp(name, "normal_force") == 0) {
+    *value = 0.0;
+    for (int k = 0; k < 3; k++)
+      *value -= r->force[k] * wall->normal[k];
+  } else if (strcmp(name, "contact_area") == 0) {
+    *value = r->area;
+  } else if (strcmp(name, "work") == 0) {
+    *value = r->work;
+  } else {
+    const int axis = gamut_text(arguments, "axis")[0] - 'x';
+    *value = strcmp(name, "force") == 0 ? r->force[axis] : r->impulse[axis];
+  }
+  return GAMUT_OK;
+}
+
+GAMUT_EFFECT(rigid_wall, .create = create, .measure = measure)
