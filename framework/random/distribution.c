@@ -102,7 +102,8 @@ static double tail(const struct law *law, double x, bool above)
   return x <= a ? left : 1 - right;
 }
 
-/* The place where the tail is p, by halving: GSL's own inverses of gamma and beta may not converge. */
+/* The place where the tail is p, by halving: GSL's own inverses of gamma and beta may not converge.
+ */
 static double halve(const struct law *law, double p, bool above)
 {
   double low = law->lower, high = law->upper;

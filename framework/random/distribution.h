@@ -5,14 +5,22 @@
 #include <stdbool.h>
 
 enum distribution_kind {
-  DISTRIBUTION_NORMAL, DISTRIBUTION_LOGNORMAL, DISTRIBUTION_UNIFORM, DISTRIBUTION_WEIBULL,
-  DISTRIBUTION_GAMMA, DISTRIBUTION_BETA, DISTRIBUTION_TRIANGULAR
+  DISTRIBUTION_NORMAL,
+  DISTRIBUTION_LOGNORMAL,
+  DISTRIBUTION_UNIFORM,
+  DISTRIBUTION_WEIBULL,
+  DISTRIBUTION_GAMMA,
+  DISTRIBUTION_BETA,
+  DISTRIBUTION_TRIANGULAR
 };
-#define DISTRIBUTION_NAMES {"normal", "lognormal", "uniform", "weibull", "gamma", "beta", "triangular"}
+#define DISTRIBUTION_NAMES                                                                         \
+  {                                                                                                \
+    "normal", "lognormal", "uniform", "weibull", "gamma", "beta", "triangular"                     \
+  }
 
-/* A random parameter as the scene states it, SI. `mean` and `deviation` are those of the untruncated
- * distribution; lower and upper the ends of a uniform, beta or triangular one (mode = the mean's
- * complement for triangular is derived), and of the truncation. */
+/* A random parameter as the scene states it, SI. `mean` and `deviation` are those of the
+ * untruncated distribution; lower and upper the ends of a uniform, beta or triangular one (mode =
+ * the mean's complement for triangular is derived), and of the truncation. */
 struct distribution {
   enum distribution_kind kind;
   double mean, deviation;

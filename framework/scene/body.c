@@ -4,12 +4,15 @@
 
 #include "scene/reading.h"
 
-static const char *const own_keys[] = {"material", "shape",    "velocity",
+static const char *const own_keys[] = {"material",    "shape",    "velocity",
                                        "temperature", "pressure", "energy"};
 static const char *const space[] = {"x", "y", "z"};
 
 static const struct parameter initial_parameters[] = {
-    {.name = "temperature", .unit = "K", .type = VALUE_REAL, .optional = true,
+    {.name = "temperature",
+     .unit = "K",
+     .type = VALUE_REAL,
+     .optional = true,
      .physical = {true, 0, INFINITY, true, true}},
     {.name = "pressure", .unit = "Pa", .type = VALUE_REAL, .optional = true},
     {.name = "energy", .unit = "J/m3", .type = VALUE_REAL, .optional = true},
@@ -40,8 +43,7 @@ static void component_read(struct reading *reading, const struct tree *node,
     amount_read(reading, node, "velocity", "m/s", &body->velocity[k]);
 }
 
-static void velocity_read(struct reading *reading, const struct tree *node,
-                          struct gamut_body *body)
+static void velocity_read(struct reading *reading, const struct tree *node, struct gamut_body *body)
 {
   unsigned axes = reading->axes ? reading->axes : 3;
   static const char *const example[] = {"", "[100 m/s]", "[0 m/s, -100 m/s]",
@@ -100,8 +102,12 @@ static void initial_read(struct reading *reading, const struct tree *node, const
   for (size_t i = 0; i < node->children; i++)
     keys[i] = node->child[i]->key;
   struct section section = {.parameter = initial_parameters,
-                            .count = COUNT_OF(initial_parameters), .node = node, .path = path,
-                            .what = what, .also = keys, .others = node->children};
+                            .count = COUNT_OF(initial_parameters),
+                            .node = node,
+                            .path = path,
+                            .what = what,
+                            .also = keys,
+                            .others = node->children};
   struct values *own = section_read(reading, &section);
   body->temperature = own->value[0].present ? own->value[0].real : 298;
   body->has_pressure = own->value[1].present;
@@ -127,8 +133,12 @@ static void body_read(struct reading *reading, const struct tree *node, struct g
 
   if (solver) {
     struct section section = {.parameter = solver->body_parameter,
-                              .count = solver->body_parameters, .node = node, .path = path,
-                              .what = what, .also = own_keys, .others = COUNT_OF(own_keys)};
+                              .count = solver->body_parameters,
+                              .node = node,
+                              .path = path,
+                              .what = what,
+                              .also = own_keys,
+                              .others = COUNT_OF(own_keys)};
     neighbour_add(reading, "under 'solver:'", solver->parameter, solver->parameters, NULL, 0);
     body->solver_values = section_read(reading, &section);
     reading->neighbours = 0;

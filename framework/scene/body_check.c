@@ -9,8 +9,6 @@ static unsigned axes_of(const struct reading *reading)
   return reading->axes ? reading->axes : 3;
 }
 
-/* ---- overlaps ---------------------------------------------------------------------------------- */
-
 /* Common part of the bounds of two bodies; false where there is none. Bodies that touch share none:
  * round-off of their places is allowed for. */
 static bool common_bounds(const struct reading *reading, const struct gamut_body *one,
@@ -79,14 +77,12 @@ static void overlaps_check(struct reading *reading)
         continue;
       size_t length = 0;
       for (unsigned c = 0; c < axes_of(reading); c++)
-        length += (size_t)snprintf(where + length, sizeof where - length, "%s%.4g", c ? ", " : "",
-                                   x[c]);
+        length +=
+            (size_t)snprintf(where + length, sizeof where - length, "%s%.4g", c ? ", " : "", x[c]);
       blame_key(reading, shape_node(two), "bodies may touch, not overlap",
                 "bodies '%s' and '%s' overlap, for example at (%s) m", one->name, two->name, where);
     }
 }
-
-/* ---- domain and grid ----------------------------------------------------------------------------- */
 
 static void domain_check(struct reading *reading, const struct gamut_body *body)
 {
@@ -96,12 +92,13 @@ static void domain_check(struct reading *reading, const struct gamut_body *body)
   const struct value *max = values_find(solver, "domain.max");
   double lower[3], upper[3];
   char expected[160];
-  if (!domain || !domain->given || !min || !max || !min->number || !max->number)
+  if (!domain || !domain->given || !min || !max)
     return;
   shape_extent(reading, &body->shape, lower, upper);
-  for (unsigned k = 0; k < axes_of(reading) && k < min->numbers && k < max->numbers; k++) {
-    double from = min->number[k], to = max->number[k];
-    double slack = 1e-9 * (to - from);
+  for (unsigned k = 0; k < axes_of(reading); k++) {
+    double from = k < min->numbers ? min->number[k] : -INFINITY;
+    double to = k < max->numbers ? max->number[k] : INFINITY;
+    double slack = 1e-9 * (upper[k] - lower[k]);
     if (lower[k] >= from - slack && upper[k] <= to + slack)
       continue;
     snprintf(expected, sizeof expected, "solver.domain goes from %c = %.6g m to %.6g m", "xyz"[k],

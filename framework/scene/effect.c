@@ -54,8 +54,8 @@ static void targets_read(struct reading *reading, const struct tree *node, struc
   if (bodies)
     body = select_read(reading, bodies, reading->body, reading->bodies, "body", &body_count);
   if (materials)
-    material = select_read(reading, materials, known, scene->materials, "material",
-                           &material_count);
+    material =
+        select_read(reading, materials, known, scene->materials, "material", &material_count);
   for (size_t b = 0; b < scene->bodies; b++) {
     const struct gamut_body *one = &scene->body[b];
     effect->on_body[b] =

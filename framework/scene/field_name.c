@@ -9,7 +9,7 @@
 struct search {
   const char *wanted; /* null: collect all names */
   bool component;
-  const char *unit;   /* found */
+  const char *unit; /* found */
   struct reading *reading;
   const char **name;
   size_t names, capacity;

@@ -53,7 +53,7 @@ static void forget_other_models(struct tree *base, const struct tree *over)
   if (base->kind != TREE_MAPPING || over->kind != TREE_MAPPING)
     return;
   const struct tree *old = tree_get(base, "model"), *new = tree_get(over, "model");
-  if (old && new && strcmp(old->text, new->text) != 0 && names_plugin(base))
+  if (old && new &&strcmp(old->text, new->text) != 0 && names_plugin(base))
     while (base->children)
       drop_child(base, base->children - 1);
   for (size_t i = 0; i < base->children; i++) {
@@ -84,7 +84,8 @@ static bool step_up(char *folder, size_t size)
   return true;
 }
 
-/* Looks beside the including file, in the folders `inputs` at and above it, in the installed one. */
+/* Looks beside the including file, in the folders `inputs` at and above it, in the installed one.
+ */
 static bool locate(const char *from, const char *name, char *path, size_t size)
 {
   const char *slash = strrchr(from, '/');
@@ -140,8 +141,7 @@ static bool item_read(struct reading *reading, const struct tree *item, struct c
   if (!text)
     return false;
   if (!locate(chain->shown[chain->depth - 1], text, path, sizeof path)) {
-    blame_value(reading, item,
-                "a path from this file's folder, or from a folder 'inputs' above it",
+    blame_value(reading, item, "a path from this file's folder, or from a folder 'inputs' above it",
                 "included file '%s' is not found (%s)", text,
                 chain_text(chain, text, words, sizeof words));
     return false;

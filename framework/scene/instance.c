@@ -59,8 +59,8 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
     return;
   }
   tree_path(model, path, sizeof path);
-  const struct descriptor *descriptor = registry_expect(
-      reading->registry, kind, model->text, &model->place, path, reading->trace);
+  const struct descriptor *descriptor =
+      registry_expect(reading->registry, kind, model->text, &model->place, path, reading->trace);
   if (!descriptor) {
     reading->faults++;
     reading->first = reading->first ? reading->first : GAMUT_SCENE;
@@ -74,9 +74,15 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
   snprintf(what, sizeof what, "%s '%s'", kind_name(kind), descriptor->name);
   tree_path(node, path, sizeof path);
   reading->here = node;
-  struct section section = {descriptor, descriptor->parameter, descriptor->parameters,
-                            node->kind == TREE_MAPPING ? node : NULL, path, what, known,
-                            others + 1, false};
+  struct section section = {descriptor,
+                            descriptor->parameter,
+                            descriptor->parameters,
+                            node->kind == TREE_MAPPING ? node : NULL,
+                            path,
+                            what,
+                            known,
+                            others + 1,
+                            false};
   instance->values = section_read(reading, &section);
   reading->here = here;
   free(known);

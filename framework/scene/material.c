@@ -49,7 +49,8 @@ static void neighbours_of(struct reading *reading, const struct tree *node, cons
   for (size_t i = 0; i < COUNT_OF(parts); i++) {
     if (strcmp(parts[i].key, part) == 0)
       continue;
-    const struct descriptor *d = instance_peek(reading, parts[i].kind, tree_get(node, parts[i].key));
+    const struct descriptor *d =
+        instance_peek(reading, parts[i].kind, tree_get(node, parts[i].key));
     if (!d && parts[i].kind == GAMUT_KIND_ELASTICITY && !tree_get(node, parts[i].key))
       d = registry_find(reading->registry, "elasticity/hypoelastic");
     if (d)
@@ -71,8 +72,10 @@ static void elasticity_default(struct reading *reading, struct material *materia
   }
   snprintf(path, sizeof path, "materials.%s.elasticity", material->name);
   reading->here = material->node;
-  struct section section = {.descriptor = descriptor, .parameter = descriptor->parameter,
-                            .count = descriptor->parameters, .path = path,
+  struct section section = {.descriptor = descriptor,
+                            .parameter = descriptor->parameter,
+                            .count = descriptor->parameters,
+                            .path = path,
                             .what = "elasticity 'hypoelastic'"};
   material->elasticity = (struct instance){.name = "elasticity", .descriptor = descriptor};
   material->elasticity.values = section_read(reading, &section);
@@ -99,8 +102,9 @@ static void laws_check(struct reading *reading, const struct material *material)
                     "'%s' is missing in material '%s': elasticity '%s' needs it", law[i],
                     material->name, elasticity->name);
     if (!use && given)
-      warn_value(reading, given, NULL, "'%s' of material '%s' is not used: elasticity '%s' takes none",
-                 law[i], material->name, elasticity->name);
+      warn_value(reading, given, NULL,
+                 "'%s' of material '%s' is not used: elasticity '%s' takes none", law[i],
+                 material->name, elasticity->name);
   }
 }
 
@@ -146,8 +150,13 @@ static void material_read(struct reading *reading, const struct tree *node,
   tree_path(node, path, sizeof path);
 
   neighbours_of(reading, node, "", extra, extras);
-  struct section section = {.parameter = extra, .count = extras, .node = node, .path = path,
-                            .what = what, .also = own_keys, .others = COUNT_OF(own_keys)};
+  struct section section = {.parameter = extra,
+                            .count = extras,
+                            .node = node,
+                            .path = path,
+                            .what = what,
+                            .also = own_keys,
+                            .others = COUNT_OF(own_keys)};
   material->extra = section_read(reading, &section);
   reading->neighbours = 0;
 
@@ -155,8 +164,13 @@ static void material_read(struct reading *reading, const struct tree *node,
   const char **keys = scene_take(node->children, sizeof *keys);
   for (size_t i = 0; i < node->children; i++)
     keys[i] = node->child[i]->key;
-  section = (struct section){.parameter = density_parameter, .count = 1, .node = node,
-                             .path = path, .what = what, .also = keys, .others = node->children};
+  section = (struct section){.parameter = density_parameter,
+                             .count = 1,
+                             .node = node,
+                             .path = path,
+                             .what = what,
+                             .also = keys,
+                             .others = node->children};
   struct values *own = section_read(reading, &section);
   material->density = own->value[0].real;
   material->density_random = own->value[0].random;
@@ -177,7 +191,7 @@ void materials_read(struct reading *reading, const struct tree *root)
   if (!node) {
     if (!was_meant(reading, root, "materials"))
       blame_missing(reading, root, "materials", "materials: {NAME: {density:, eos:, ...}}",
-                  "'materials' is missing");
+                    "'materials' is missing");
     return;
   }
   if (!expect_mapping(reading, node, "'materials'"))
@@ -188,8 +202,6 @@ void materials_read(struct reading *reading, const struct tree *root)
   for (size_t i = 0; i < node->children; i++)
     material_read(reading, node->child[i], extra, extras, &scene->material[i]);
 }
-
-/* ---- what effects and elasticities ask of materials ---------------------------------------------- */
 
 static void needs_check(struct reading *reading, const struct descriptor *plugin, const char *who,
                         const struct material *material)

@@ -23,8 +23,8 @@ static void frames_read(struct reading *reading, const struct tree *node)
     if (value >= 1 && value <= 1e6 && value == (double)(long)value)
       scene->output_every = -value;
     else
-      blame_value(reading, frames, "a whole number from 1 to 1000000",
-                  "'frames' cannot be '%.40s'", frames->text);
+      blame_value(reading, frames, "a whole number from 1 to 1000000", "'frames' cannot be '%.40s'",
+                  frames->text);
   }
 }
 

@@ -5,14 +5,13 @@
 
 static const char *const own_keys[] = {"measure", "effect", "body", "at", "reduce", "every"};
 
-/* ---- which measure ------------------------------------------------------------------------------- */
-
 struct provider {
   const struct descriptor *descriptor;
   const char *effect;
 };
 
-/* Whoever may provide measures: the solver, the elasticities, the effects (all, or the one named). */
+/* Whoever may provide measures: the solver, the elasticities, the effects (all, or the one named).
+ */
 static size_t providers_of(const struct scene *scene, const char *effect, struct provider *list)
 {
   size_t count = 0;
@@ -127,8 +126,6 @@ static bool measure_find(struct reading *reading, const struct tree *node, const
   return quantity->measure != NULL;
 }
 
-/* ---- where and when ------------------------------------------------------------------------------ */
-
 static bool body_find(struct reading *reading, const struct tree *node, int *body)
 {
   char expected[WORDS_SIZE];
@@ -192,7 +189,9 @@ static void point_read(struct reading *reading, const struct tree *at, struct qu
 static void at_read(struct reading *reading, const struct tree *node, struct quantity *quantity)
 {
   static const char *const known[] = {"body", "point", "follow"};
-  const struct tree *at = tree_get(node, "at");
+  const struct measure *measure = quantity->measure;
+  bool argument = parameter_named(measure->argument, measure->arguments, "at") != NULL;
+  const struct tree *at = argument ? NULL : tree_get(node, "at");
   if (quantity->measure->at != MEASURE_POINT) {
     if (at)
       blame_key(reading, at, quantity->measure->at == MEASURE_BODY ? "body: NAME" : NULL,
@@ -256,8 +255,12 @@ static void quantity_read(struct reading *reading, const struct tree *node,
       !measure_find(reading, measure, effect, quantity))
     return;
   struct section section = {.parameter = quantity->measure->argument,
-                            .count = quantity->measure->arguments, .node = node, .path = path,
-                            .what = what, .also = own_keys, .others = COUNT_OF(own_keys)};
+                            .count = quantity->measure->arguments,
+                            .node = node,
+                            .path = path,
+                            .what = what,
+                            .also = own_keys,
+                            .others = COUNT_OF(own_keys)};
   quantity->arguments = section_read(reading, &section);
   at_read(reading, node, quantity);
   when_read(reading, node, quantity);

@@ -37,15 +37,15 @@ struct reading {
   struct trace *trace;
   const struct registry *registry; /* null outside scene_read; so is the scene */
   struct scene *scene;
-  const struct tree *here;         /* stands in where a value has no node */
-  const char *const *body;         /* names of the bodies; null: not checked */
+  const struct tree *here; /* stands in where a value has no node */
+  const char *const *body; /* names of the bodies; null: not checked */
   size_t bodies;
-  unsigned axes;                   /* of the geometry; 0: the solver has none */
+  unsigned axes; /* of the geometry; 0: the solver has none */
   bool axisymmetric;
-  bool lost;                       /* no solver or geometry was understood: axes are unknown */
-  bool random;                     /* some value is random */
+  bool lost;   /* no solver or geometry was understood: axes are unknown */
+  bool random; /* some value is random */
   size_t faults;
-  gamut_status first;              /* status of the first fault */
+  gamut_status first; /* status of the first fault */
   struct neighbour neighbour[NEIGHBOURS_MAX];
   size_t neighbours;
   struct guess guess[GUESSES_MAX];
@@ -53,30 +53,31 @@ struct reading {
 };
 
 /* Zeroed memory. A scene takes little: where there is none left, the program ends. */
-void *scene_take(size_t count, size_t size);         /* freed by its owner */
+void *scene_take(size_t count, size_t size);                   /* freed by its owner */
 void *scene_keep(struct reading *, size_t count, size_t size); /* freed with the scene */
 char *scene_text(struct reading *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* ---- blame.c: faults in words. `expected` may be null. ------------------------------------------ */
+/* ---- blame.c: faults in words. `expected` may be null. ---- */
 
-void blame_value(struct reading *, const struct tree *, const char *expected, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
+void blame_value(struct reading *, const struct tree *, const char *expected, const char *format,
+                 ...) __attribute__((format(printf, 4, 5)));
 void blame_key(struct reading *, const struct tree *, const char *expected, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 /* The same with a path of its own, for what is not there. */
 void blame_missing(struct reading *, const struct tree *, const char *path, const char *expected,
                    const char *format, ...) __attribute__((format(printf, 5, 6)));
-void warn_value(struct reading *, const struct tree *, const char *expected, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
+void warn_value(struct reading *, const struct tree *, const char *expected, const char *format,
+                ...) __attribute__((format(printf, 4, 5)));
 /* "did you mean 'x'?" where one is near, else "known are ..."; null if there is none. */
 const char *suggest(const char *word, const char *const *known, size_t count, char *buffer,
                     size_t size);
 /* A list with commas: "a, b, c". Returns buffer. */
 char *list_text(const char *const *name, size_t count, char *buffer, size_t size);
 /* A key that nobody knows here; suggests the nearest, also of groups below and of neighbours. */
-void blame_unknown(struct reading *, const struct tree *child, const struct parameter *, size_t count,
-                   const char *const *also, size_t others, const char *what);
-/* Whether a key of the mapping that is a fault already was meant to be this one: it is not missed. */
+void blame_unknown(struct reading *, const struct tree *child, const struct parameter *,
+                   size_t count, const char *const *also, size_t others, const char *what);
+/* Whether a key of the mapping that is a fault already was meant to be this one: it is not missed.
+ */
 bool was_meant(const struct reading *, const struct tree *mapping, const char *name);
 void neighbour_add(struct reading *, const char *where, const struct parameter *, size_t parameters,
                    const char *const *key, size_t keys);
@@ -89,7 +90,7 @@ void expect_keys(struct reading *, const struct tree *, const char *const *known
 bool expect_name(struct reading *, const struct tree *, const char *what);
 bool has_name(const char *const *name, size_t count, const char *wanted);
 
-/* ---- one value ------------------------------------------------------------------------------- */
+/* ---- one value ---- */
 
 bool unit_is_pure(const char *unit);
 /* A number in SI from a scalar; faults are told at the node. */
@@ -107,18 +108,18 @@ const char *text_read(struct reading *, const struct tree *, const char *name);
 /* A list of names, or one; kept with the scene. */
 const char **names_read(struct reading *, const struct tree *, const char *name, size_t *count);
 
-/* ---- values of a section --------------------------------------------------------------------- */
+/* ---- values of a section ---- */
 
 struct section {
   const struct descriptor *descriptor; /* of constraints and given sets; null: none */
   const struct parameter *parameter;
   size_t count;
-  const struct tree *node;             /* the mapping, or null */
+  const struct tree *node; /* the mapping, or null */
   const char *path;
-  const char *what;                    /* "strength 'johnson_cook'" */
+  const char *what; /* "strength 'johnson_cook'" */
   const char *const *also;
   size_t others;
-  bool lenient;                        /* what is required may be absent */
+  bool lenient; /* what is required may be absent */
 };
 /* Never null. */
 struct values *section_read(struct reading *, const struct section *);
@@ -127,7 +128,7 @@ bool given_set_names(const struct descriptor *, const char *name);
 /* Chooses the given set, derives, checks ranges of what is derived, then the constraints. */
 void values_check(struct reading *, struct values *, const struct descriptor *, const char *what);
 
-/* ---- parts of a scene ------------------------------------------------------------------------ */
+/* ---- parts of a scene ---- */
 
 /* Reads the file with what it includes, puts overrides in. */
 struct tree *include_read(struct reading *, const char *file, const struct scene_override *,

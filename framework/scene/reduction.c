@@ -13,9 +13,9 @@ struct form {
   bool time_of_max, alone; /* may stand without a window */
 };
 static const struct form form_list[] = {
-    {"max", REDUCE_MAX, false, true},       {"min", REDUCE_MIN, false, true},
-    {"mean", REDUCE_MEAN, false, true},     {"time_of_max", REDUCE_TIME_OF, true, true},
-    {"slope", REDUCE_SLOPE, false, true},   {"time_of", REDUCE_TIME_OF, false, false},
+    {"max", REDUCE_MAX, false, true},     {"min", REDUCE_MIN, false, true},
+    {"mean", REDUCE_MEAN, false, true},   {"time_of_max", REDUCE_TIME_OF, true, true},
+    {"slope", REDUCE_SLOPE, false, true}, {"time_of", REDUCE_TIME_OF, false, false},
 };
 
 static const struct form *form_named(const char *name)

@@ -3,23 +3,22 @@
  *   gamut: 1                                format, required
  *   title: text
  *   include: [materials/copper.yaml]        merged below this file; relative to the including file,
- *                                           then to the folder of inputs beside it and the installed one
- *   solver: {model: NAME, ...}              the solver's parameters
- *   materials: {NAME: {density:, eos: {model:, ...}, strength:, elasticity:, source: text, ...}}
- *                                           elasticity defaults to hypoelastic; strength may be absent.
- *                                           Further keys: material_parameters of any installed plugin
+ *                                           then to the folder of inputs beside it and the
+ * installed one solver: {model: NAME, ...}              the solver's parameters materials: {NAME:
+ * {density:, eos: {model:, ...}, strength:, elasticity:, source: text, ...}} elasticity defaults to
+ * hypoelastic; strength may be absent. Further keys: material_parameters of any installed plugin
  *   bodies: {NAME: {material:, shape:, velocity:, temperature:, pressure: | energy:, ...}}
- *                                           velocity: vector with units, or [expression strings of x, y, z
- *                                           in SI metres]; further keys: body_parameters of the solver
- *   effects: {NAME: {model:, enabled: auto|on|off, bodies: [..], materials: [..], ...}}
- *   quantities: {NAME: {measure:, ARGUMENTS, body:, at:, reduce:, every:}}
- *   outputs: {every: 5 us, fields: [..]}    or {frames: 20}
+ *                                           velocity: vector with units, or [expression strings of
+ * x, y, z in SI metres]; further keys: body_parameters of the solver effects: {NAME: {model:,
+ * enabled: auto|on|off, bodies: [..], materials: [..], ...}} quantities: {NAME: {measure:,
+ * ARGUMENTS, body:, at:, reduce:, every:}} outputs: {every: 5 us, fields: [..]}    or {frames: 20}
  *   uncertainty: {...}                      kept for studies
  *
- * A real parameter may be random: {mean: 90 MPa, cv: 0.1} or {mean:, sd:, distribution:, truncate:}; or
- * {distribution: uniform, lower:, upper:}. A run without a study takes the mean and says so.
- * Units are required where a dimension is due. A card is a scene with only gamut and materials (title
- * and include may be there); it reads well, with solver.descriptor null and no bodies. */
+ * A real parameter may be random: {mean: 90 MPa, cv: 0.1} or {mean:, sd:, distribution:,
+ * truncate:}; or {distribution: uniform, lower:, upper:}. A run without a study takes the mean and
+ * says so. Units are required where a dimension is due. A card is a scene with only gamut and
+ * materials (title and include may be there); it reads well, with solver.descriptor null and no
+ * bodies. */
 #ifndef GAMUT_SCENE_ROOM_H
 #define GAMUT_SCENE_ROOM_H
 
@@ -34,12 +33,13 @@
 /* One checked value. Which members count depends on parameter->type. */
 struct value {
   const struct parameter *parameter;
-  const struct tree *node;       /* where it was given; null: default, derived or absent */
-  bool given, present;           /* in the scene; has a value at all */
-  double real;                   /* VALUE_REAL, INTEGER, BOOLEAN, number of a CHOICE; SI; the mean */
-  struct distribution *random;   /* null: certain */
-  const char *text;              /* CHOICE, TEXT, BODY */
-  double *number; size_t numbers; /* VECTOR, or TABLE row by row (numbers = rows x columns) */
+  const struct tree *node;     /* where it was given; null: default, derived or absent */
+  bool given, present;         /* in the scene; has a value at all */
+  double real;                 /* VALUE_REAL, INTEGER, BOOLEAN, number of a CHOICE; SI; the mean */
+  struct distribution *random; /* null: certain */
+  const char *text;            /* CHOICE, TEXT, BODY */
+  double *number;
+  size_t numbers;                /* VECTOR, or TABLE row by row (numbers = rows x columns) */
   struct expression *expression; /* EXPRESSION */
   struct gamut_values *group;    /* GROUP; never null for one */
 };
@@ -51,16 +51,16 @@ struct gamut_values {
   const struct parameter *parameter;
   struct value *value;
   size_t count;
-  char *path;                    /* scene path: "materials.copper.strength" */
-  const struct tree *node;       /* the mapping, or null */
+  char *path;              /* scene path: "materials.copper.strength" */
+  const struct tree *node; /* the mapping, or null */
 };
 #define values gamut_values
 
 /* By dotted path; null if not declared. */
 const struct value *values_find(const struct values *, const char *path);
 
-struct instance { /* a plugin named by the scene with its values */
-  const char *name;              /* effects: their key; others: kind */
+struct instance {   /* a plugin named by the scene with its values */
+  const char *name; /* effects: their key; others: kind */
   const struct descriptor *descriptor;
   struct values *values;
   const struct tree *node;
@@ -68,21 +68,21 @@ struct instance { /* a plugin named by the scene with its values */
 
 struct material {
   const char *name;
-  double density;                /* kg/m3 */
+  double density; /* kg/m3 */
   struct distribution *density_random;
   struct instance eos, strength, elasticity; /* descriptor null: absent */
   /* material parameters of plugins, by name; value.present false where not given */
-  struct values *extra;          /* parameter array = the union over installed plugins */
+  struct values *extra; /* parameter array = the union over installed plugins */
   const struct tree *node;
 };
 
 enum shape_kind { SHAPE_NONE, SHAPE_BOX, SHAPE_CYLINDER, SHAPE_SPHERE };
 struct shape {
   enum shape_kind kind;
-  double lower[3], upper[3];     /* box; unbounded (-inf, inf) in directions a geometry lacks */
-  double centre[3];              /* sphere; centre of a cylinder's base */
-  double radius, length;         /* cylinder: from the base along +axis; an axisymmetric scene has
-                                    axis y and radius along x; in plane strain axis z, length inf */
+  double lower[3], upper[3]; /* box; unbounded (-inf, inf) in directions a geometry lacks */
+  double centre[3];          /* sphere; centre of a cylinder's base */
+  double radius, length;     /* cylinder: from the base along +axis; an axisymmetric scene has
+                                axis y and radius along x; in plane strain axis z, length inf */
   int axis;
 };
 bool shape_contains(const struct shape *, const double x[3]); /* closed set */
@@ -91,82 +91,98 @@ void shape_bounds(const struct shape *, double lower[3], double upper[3]);
 struct gamut_body {
   const struct gamut_host *host; /* first */
   const char *name;
-  size_t index, material;        /* numbers in scene->body, scene->material */
+  size_t index, material; /* numbers in scene->body, scene->material */
   struct shape shape;
   double velocity[3];
   struct expression *velocity_expression[3]; /* of x y z in metres, giving m/s; null: uniform */
-  double temperature;            /* K; default 298 */
+  double temperature;                        /* K; default 298 */
   bool has_pressure, has_energy;
-  double pressure, energy;       /* initial, Pa or J/m3 */
-  struct values *solver_values;  /* body_parameters of the solver */
+  double pressure, energy;      /* initial, Pa or J/m3 */
+  struct values *solver_values; /* body_parameters of the solver */
   const struct tree *node;
 };
 
 struct effect {
   struct instance instance;
   enum { EFFECT_AUTO, EFFECT_ON, EFFECT_OFF } enabled;
-  bool *on_body;                 /* one a body: whether the effect touches it (bodies:, materials:) */
+  bool *on_body; /* one a body: whether the effect touches it (bodies:, materials:) */
 };
 
 enum reduction_kind {
-  REDUCE_NONE, REDUCE_AT, REDUCE_MAX, REDUCE_MIN, REDUCE_MEAN, REDUCE_TIME_OF, REDUCE_SLOPE
+  REDUCE_NONE,
+  REDUCE_AT,
+  REDUCE_MAX,
+  REDUCE_MIN,
+  REDUCE_MEAN,
+  REDUCE_TIME_OF,
+  REDUCE_SLOPE
 };
-/* `reduce:` forms: `at end`, `at 12 us`, `max`, `min`, {mean: [t0, t1]}, {max: [t0, t1]}, {min: ..},
- * {slope: [t0, t1]} (least-squares slope by time; unit /s), {time_of: VALUE} (first crossing of VALUE,
- * interpolated; in s), {time_of_max: [t0, t1]} is time of the largest. Absent: a history. */
+/* `reduce:` forms: `at end`, `at 12 us`, `max`, `min`, {mean: [t0, t1]}, {max: [t0, t1]}, {min:
+ * ..}, {slope: [t0, t1]} (least-squares slope by time; unit /s), {time_of: VALUE} (first crossing
+ * of VALUE, interpolated; in s), {time_of_max: [t0, t1]} is time of the largest. Absent: a history.
+ */
 struct reduction {
   enum reduction_kind kind;
   bool at_end;
-  double from, to;               /* window, axis units (s); whole run by default */
-  double level;                  /* TIME_OF, in the measure's unit */
+  double from, to; /* window, axis units (s); whole run by default */
+  double level;    /* TIME_OF, in the measure's unit */
   bool time_of_max;
 };
 
 struct quantity {
   const char *name;
   const struct measure *measure;
-  const struct descriptor *provider; /* whose measure it is; null: a plain field of the vocabulary */
-  const char *effect;            /* key of the effect that provides it, or null */
-  const char *field;             /* plain field component, e.g. "velocity_y", or null */
-  struct values *arguments;      /* may be null */
-  int body;                      /* index, or -1 */
+  const struct descriptor
+      *provider;            /* whose measure it is; null: a plain field of the vocabulary */
+  const char *effect;       /* key of the effect that provides it, or null */
+  const char *field;        /* plain field component, e.g. "velocity_y", or null */
+  struct values *arguments; /* may be null */
+  int body;                 /* index, or -1 */
   bool has_point, follow_space;
   double point[3];
-  double every;                  /* 0: about 500 samples */
+  double every; /* 0: about 500 samples */
   struct reduction reduction;
   const struct tree *node;
 };
 
 struct scene {
-  const char *file;              /* as given */
+  const char *file; /* as given */
   const char *title;
-  struct tree *tree;             /* merged, with overrides; owned */
+  struct tree *tree; /* merged, with overrides; owned */
   struct instance solver;
-  struct material *material;  size_t materials;
-  struct gamut_body *body;    size_t bodies;
-  struct effect *effect;      size_t effects;
-  struct quantity *quantity;  size_t quantities;
-  double output_every;           /* 0: none; <0: -frames */
-  const char **output_field;  size_t output_fields;
-  bool random;                   /* some parameter is random */
+  struct material *material;
+  size_t materials;
+  struct gamut_body *body;
+  size_t bodies;
+  struct effect *effect;
+  size_t effects;
+  struct quantity *quantity;
+  size_t quantities;
+  double output_every; /* 0: none; <0: -frames */
+  const char **output_field;
+  size_t output_fields;
+  bool random; /* some parameter is random */
 };
 
-struct scene_override { const char *path, *value; }; /* from --set path=value */
+struct scene_override {
+  const char *path, *value;
+}; /* from --set path=value */
 
-/* Reads, merges, overrides and checks. All errors are collected. Blamed as GAMUT_SCENE; a plugin that
- * the scene names but that is broken as GAMUT_PLUGIN. Nothing is opened or run. */
+/* Reads, merges, overrides and checks. All errors are collected. Blamed as GAMUT_SCENE; a plugin
+ * that the scene names but that is broken as GAMUT_PLUGIN. Nothing is opened or run. */
 gamut_status scene_read(const char *file, const struct scene_override *, size_t overrides,
                         struct registry *, const struct units *, struct trace *, struct scene **);
 void scene_free(struct scene *);
 
-/* Checks values of `node` (a mapping, or null for none) against parameters: unknown and duplicate keys,
- * types, units, ranges, required ones; then given sets and constraints. Keys in `also` (count others)
- * are allowed and left alone. Used by scene, eval, conformance. */
+/* Checks values of `node` (a mapping, or null for none) against parameters: unknown and duplicate
+ * keys, types, units, ranges, required ones; then given sets and constraints. Keys in `also` (count
+ * others) are allowed and left alone. Used by scene, eval, conformance. */
 gamut_status values_read(const struct descriptor *, const struct parameter *, size_t count,
                          const struct tree *node, const char *path, const char *const *also,
                          size_t others, const struct units *, struct trace *, struct values **);
 void values_free(struct values *);
-/* Sets a real parameter (eval, studies), then derives given sets and checks ranges and constraints. */
+/* Sets a real parameter (eval, studies), then derives given sets and checks ranges and constraints.
+ */
 gamut_status values_set(struct values *, const struct descriptor *, size_t parameter, double real,
                         struct trace *);
 

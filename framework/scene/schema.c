@@ -1,5 +1,5 @@
-/* JSON Schema of scenes (draft 2020-12). It helps an editor to complete and to explain; what it cannot
- * say (dimensions, constraints, names that must exist) `gamut check` says. */
+/* JSON Schema of scenes (draft 2020-12). It helps an editor to complete and to explain; what it
+ * cannot say (dimensions, constraints, names that must exist) `gamut check` says. */
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,8 +38,8 @@ static json_t *words(const char *const *name, size_t count)
 
 static json_t *list_of(json_t *item, size_t least, size_t most)
 {
-  json_t *schema = json_pack("{s:s, s:o, s:I}", "type", "array", "items", item, "minItems",
-                             (json_int_t)least);
+  json_t *schema =
+      json_pack("{s:s, s:o, s:I}", "type", "array", "items", item, "minItems", (json_int_t)least);
   if (most)
     json_object_set_new(schema, "maxItems", json_integer((json_int_t)most));
   return schema;
@@ -144,12 +144,12 @@ static json_t *plugin_schema(const struct registry *registry, enum gamut_kind ki
         parameters_schema(d->parameter, d->parameters, common ? common() : json_object());
     json_object_set_new(properties, "model", json_pack("{s:s}", "const", d->name));
     json_t *then = described(object(properties, true), "%s", d->summary ? d->summary : "");
-    json_array_append_new(branches, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:o}", "if", "properties",
-                                              "model", "const", d->name, "required", "model",
-                                              "then", then));
+    json_array_append_new(branches,
+                          json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:o}", "if", "properties", "model",
+                                    "const", d->name, "required", "model", "then", then));
   }
-  json_t *mapping = json_pack("{s:s, s:{s:{s:O}}}", "type", "object", "properties", "model", "enum",
-                              models);
+  json_t *mapping =
+      json_pack("{s:s, s:{s:{s:O}}}", "type", "object", "properties", "model", "enum", models);
   if (json_array_size(branches))
     json_object_set(mapping, "allOf", branches);
   json_decref(branches);
@@ -158,26 +158,25 @@ static json_t *plugin_schema(const struct registry *registry, enum gamut_kind ki
 
 static json_t *effect_keys(void)
 {
-  return json_pack("{s:{s:[s, s, s, b, b]}, s:o, s:o}", "enabled", "enum", "auto", "on", "off", 1, 0,
-                   "bodies", reference("names"), "materials", reference("names"));
+  return json_pack("{s:{s:[s, s, s, b, b]}, s:o, s:o}", "enabled", "enum", "auto", "on", "off", 1,
+                   0, "bodies", reference("names"), "materials", reference("names"));
 }
 
 static json_t *shape_schema(void)
 {
   json_t *place = reference("place"), *length = reference("quantity");
-  json_t *box = object(json_pack("{s:O, s:O, s:O, s:O}", "min", place, "max", place, "size", place,
-                                 "centre", place),
-                       true);
-  json_t *cylinder = object(json_pack("{s:O, s:O, s:{s:[s, s, s]}, s:O}", "radius", length,
-                                      "length", length, "axis", "enum", "x", "y", "z", "base",
-                                      place),
-                            true);
+  json_t *box = object(
+      json_pack("{s:O, s:O, s:O, s:O}", "min", place, "max", place, "size", place, "centre", place),
+      true);
+  json_t *cylinder =
+      object(json_pack("{s:O, s:O, s:{s:[s, s, s]}, s:O}", "radius", length, "length", length,
+                       "axis", "enum", "x", "y", "z", "base", place),
+             true);
   json_t *sphere = object(json_pack("{s:O, s:O}", "radius", length, "centre", place), true);
   json_decref(place);
   json_decref(length);
-  json_t *shape =
-      object(json_pack("{s:o, s:o, s:o}", "box", box, "cylinder", cylinder, "sphere", sphere),
-             true);
+  json_t *shape = object(
+      json_pack("{s:o, s:o, s:o}", "box", box, "cylinder", cylinder, "sphere", sphere), true);
   json_object_set_new(shape, "minProperties", json_integer(1));
   json_object_set_new(shape, "maxProperties", json_integer(1));
   return described(shape, "one of box, cylinder, sphere");
@@ -186,10 +185,10 @@ static json_t *shape_schema(void)
 static json_t *material_schema(const struct registry *registry)
 {
   json_t *properties = json_pack("{s:o}", "source", reference("names"));
-  json_object_set_new(properties, "density",
-                      described(json_pack("{s:[o, o]}", "anyOf", reference("quantity"),
-                                          reference("random")),
-                                "density at zero compression [kg/m3]; greater than 0 kg/m3"));
+  json_object_set_new(
+      properties, "density",
+      described(json_pack("{s:[o, o]}", "anyOf", reference("quantity"), reference("random")),
+                "density at zero compression [kg/m3]; greater than 0 kg/m3"));
   json_object_set_new(properties, "eos", plugin_schema(registry, GAMUT_KIND_EOS, NULL));
   json_object_set_new(properties, "strength", plugin_schema(registry, GAMUT_KIND_STRENGTH, NULL));
   json_object_set_new(properties, "elasticity",
@@ -205,14 +204,14 @@ static json_t *material_schema(const struct registry *registry)
 static json_t *body_schema(const struct registry *registry)
 {
   json_t *component = json_pack("{s:[s, s]}", "type", "string", "number");
-  json_t *properties = json_pack(
-      "{s:{s:s}, s:o, s:o, s:o, s:o, s:o}", "material", "type", "string", "shape", shape_schema(),
-      "velocity",
-      described(list_of(component, 1, 3),
-                "numbers with units, or arithmetic in x, y, z (metres) that gives m/s"),
-      "temperature", described(reference("quantity"), "298 K where it is not stated [K]"),
-      "pressure", described(reference("quantity"), "initial pressure [Pa]"), "energy",
-      described(reference("quantity"), "initial energy per reference volume [J/m3]"));
+  json_t *properties =
+      json_pack("{s:{s:s}, s:o, s:o, s:o, s:o, s:o}", "material", "type", "string", "shape",
+                shape_schema(), "velocity",
+                described(list_of(component, 1, 3),
+                          "numbers with units, or arithmetic in x, y, z (metres) that gives m/s"),
+                "temperature", described(reference("quantity"), "298 K where it is not stated [K]"),
+                "pressure", described(reference("quantity"), "initial pressure [Pa]"), "energy",
+                described(reference("quantity"), "initial energy per reference volume [J/m3]"));
   for (size_t i = 0; i < registry_count(registry); i++) {
     const struct descriptor *d = registry_at(registry, i);
     parameters_schema(d->body_parameter, d->body_parameters, properties);
@@ -245,19 +244,18 @@ static json_t *definitions(void)
   static const char *const kinds[] = DISTRIBUTION_NAMES;
   json_t *pure = json_pack("{s:[s, s]}", "type", "number", "string");
   json_t *value = json_pack("{s:[s, s]}", "type", "number", "string");
-  json_t *random = object(
-      json_pack("{s:O, s:O, s:O, s:{s:o}, s:O, s:O, s:{s:[s, s]}}", "mean", value, "cv", value,
-                "sd", value, "distribution", "enum", words(kinds, COUNT_OF(kinds)), "lower", value,
-                "upper", value, "truncate", "type", "boolean", "array"),
-      true);
+  json_t *random =
+      object(json_pack("{s:O, s:O, s:O, s:{s:o}, s:O, s:O, s:{s:[s, s]}}", "mean", value, "cv",
+                       value, "sd", value, "distribution", "enum", words(kinds, COUNT_OF(kinds)),
+                       "lower", value, "upper", value, "truncate", "type", "boolean", "array"),
+             true);
   json_decref(value);
-  return json_pack(
-      "{s:o, s:o, s:o, s:o, s:o}", "number", pure, "quantity",
-      json_pack("{s:s, s:s, s:[s]}", "type", "string", "pattern", "^[-+]?[0-9.]+([eE][-+]?[0-9]+)? ",
-                "examples", "0.4 mm"),
-      "random", random, "place", list_of(reference("quantity"), 1, 3), "names",
-      json_pack("{s:[{s:s}, o]}", "anyOf", "type", "string",
-                list_of(json_pack("{s:s}", "type", "string"), 0, 0)));
+  return json_pack("{s:o, s:o, s:o, s:o, s:o}", "number", pure, "quantity",
+                   json_pack("{s:s, s:s, s:[s]}", "type", "string", "pattern",
+                             "^[-+]?[0-9.]+([eE][-+]?[0-9]+)? ", "examples", "0.4 mm"),
+                   "random", random, "place", list_of(reference("quantity"), 1, 3), "names",
+                   json_pack("{s:[{s:s}, o]}", "anyOf", "type", "string",
+                             list_of(json_pack("{s:s}", "type", "string"), 0, 0)));
 }
 
 void schema_write(const struct registry *registry, FILE *file)
@@ -265,23 +263,21 @@ void schema_write(const struct registry *registry, FILE *file)
   json_t *outputs = object(json_pack("{s:o, s:{s:s}, s:o}", "every", reference("quantity"),
                                      "frames", "type", "integer", "fields", reference("names")),
                            true);
-  json_t *uncertainty =
-      object(json_pack("{s:o, s:{s:s}, s:{s:s}}", "estimator",
-                       plugin_schema(registry, GAMUT_KIND_ESTIMATOR, NULL), "correlation", "type",
-                       "array", "seed", "type", "integer"),
-             true);
-  json_t *properties = json_pack(
-      "{s:{s:i}, s:{s:s}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "gamut", "const", 1, "title",
-      "type", "string", "include", reference("names"), "solver",
-      plugin_schema(registry, GAMUT_KIND_SOLVER, NULL), "materials",
-      named(material_schema(registry)), "bodies", named(body_schema(registry)), "effects",
-      named(plugin_schema(registry, GAMUT_KIND_EFFECT, effect_keys)), "quantities",
-      named(quantity_schema(registry)), "outputs", outputs, "uncertainty", uncertainty);
+  json_t *uncertainty = object(json_pack("{s:o, s:{s:s}, s:{s:s}}", "estimator",
+                                         plugin_schema(registry, GAMUT_KIND_ESTIMATOR, NULL),
+                                         "correlation", "type", "array", "seed", "type", "integer"),
+                               true);
+  json_t *properties =
+      json_pack("{s:{s:i}, s:{s:s}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "gamut", "const", 1,
+                "title", "type", "string", "include", reference("names"), "solver",
+                plugin_schema(registry, GAMUT_KIND_SOLVER, NULL), "materials",
+                named(material_schema(registry)), "bodies", named(body_schema(registry)), "effects",
+                named(plugin_schema(registry, GAMUT_KIND_EFFECT, effect_keys)), "quantities",
+                named(quantity_schema(registry)), "outputs", outputs, "uncertainty", uncertainty);
   json_t *schema = json_pack("{s:s, s:s, s:s, s:o, s:b, s:[s], s:o}", "$schema",
-                             "https://json-schema.org/draft/2020-12/schema", "title",
-                             "gamut scene", "type", "object", "properties", properties,
-                             "additionalProperties", 0, "required", "gamut", "$defs",
-                             definitions());
+                             "https://json-schema.org/draft/2020-12/schema", "title", "gamut scene",
+                             "type", "object", "properties", properties, "additionalProperties", 0,
+                             "required", "gamut", "$defs", definitions());
   json_dumpf(schema, file, JSON_INDENT(2));
   fputc('\n', file);
   json_decref(schema);

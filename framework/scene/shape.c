@@ -62,8 +62,6 @@ void shape_extent(const struct reading *reading, const struct shape *shape, doub
     lower[0] = fmax(lower[0], 0);
 }
 
-/* ---- reading ----------------------------------------------------------------------------------- */
-
 static unsigned axes_of(const struct reading *reading)
 {
   return reading->axes ? reading->axes : 3;
@@ -119,7 +117,8 @@ static bool box_read(struct reading *reading, const struct tree *node, struct sh
     blame_key(reading, node, "{min:, max:} or {size:, centre:}", "the box is given in two ways");
     return false;
   }
-  bool one = place_read(reading, node, centred ? "size" : "min", true, centred ? size : shape->lower);
+  bool one =
+      place_read(reading, node, centred ? "size" : "min", true, centred ? size : shape->lower);
   bool two = place_read(reading, node, centred ? "centre" : "max", !centred,
                         centred ? shape->centre : shape->upper);
   for (unsigned k = 0; k < 3 && one && two; k++) {

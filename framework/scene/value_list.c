@@ -39,8 +39,6 @@ double *vector_read(struct reading *reading, const struct tree *node, const char
   return NULL;
 }
 
-/* ---- tables ------------------------------------------------------------------------------------ */
-
 static bool table_in_place(struct reading *reading, const struct parameter *parameter,
                            const struct tree *node, struct value *value)
 {
@@ -179,8 +177,8 @@ static bool table_from_file(struct reading *reading, const struct parameter *par
   const struct tree *name = tree_get(node, "file");
   expect_keys(reading, node, known, 1, "a table");
   if (!name || name->kind != TREE_SCALAR) {
-    blame_value(reading, node, "rows in brackets, or {file: NAME.csv}",
-                "table '%s' names no file", parameter->name);
+    blame_value(reading, node, "rows in brackets, or {file: NAME.csv}", "table '%s' names no file",
+                parameter->name);
     return false;
   }
   const char *from = name->place.file ? name->place.file : "";
@@ -207,8 +205,8 @@ static bool table_of_one(struct reading *reading, const struct parameter *parame
   return amount_read(reading, node, parameter->name, parameter->choice_unit[1], &value->number[1]);
 }
 
-bool table_read(struct reading *reading, const struct parameter *parameter,
-                const struct tree *node, struct value *value)
+bool table_read(struct reading *reading, const struct parameter *parameter, const struct tree *node,
+                struct value *value)
 {
   if (node->kind == TREE_MAPPING)
     return table_from_file(reading, parameter, node, value);

@@ -14,7 +14,8 @@ static bool bounded(enum distribution_kind kind)
          kind == DISTRIBUTION_TRIANGULAR;
 }
 
-static bool kind_read(struct reading *reading, const struct tree *node, enum distribution_kind *kind)
+static bool kind_read(struct reading *reading, const struct tree *node,
+                      enum distribution_kind *kind)
 {
   char expected[WORDS_SIZE];
   *kind = DISTRIBUTION_NORMAL;
@@ -103,7 +104,8 @@ static bool ends_read(struct reading *reading, const char *unit, const struct tr
   return false;
 }
 
-/* Whether mean, spread and ends fit together; uniform and triangular have no spread of their own. */
+/* Whether mean, spread and ends fit together; uniform and triangular have no spread of their own.
+ */
 static bool agrees(struct reading *reading, const struct tree *node, struct distribution *d)
 {
   const struct tree *mean = tree_get(node, "mean");
@@ -124,7 +126,8 @@ static bool agrees(struct reading *reading, const struct tree *node, struct dist
     double mode = 3 * d->mean - d->lower - d->upper;
     if (mode >= d->lower && mode <= d->upper) {
       d->deviation = sqrt((d->lower * d->lower + d->upper * d->upper + mode * mode -
-                           d->lower * d->upper - d->lower * mode - d->upper * mode) / 18);
+                           d->lower * d->upper - d->lower * mode - d->upper * mode) /
+                          18);
       return true;
     }
     blame_value(reading, mean, "in the middle third between the ends",
@@ -204,8 +207,8 @@ static bool distribution_read(struct reading *reading, const struct parameter *p
   for (size_t i = 0; i < 3; i++) {
     const struct tree *extra = tree_get(node, known_keys[i]);
     if (extra && (uniform || (i > 0 && !spread))) {
-      blame_key(reading, extra, "its ends say all of it",
-                "a %s distribution takes no '%s'", kind_names[d->kind], extra->key);
+      blame_key(reading, extra, "its ends say all of it", "a %s distribution takes no '%s'",
+                kind_names[d->kind], extra->key);
       return false;
     }
   }

@@ -69,8 +69,8 @@ static bool numbers_read(struct reading *reading, const struct parameter *parame
   bool spatial = reading->axes > 0 && parameter->size_min == 1 && parameter->size_max == 3;
   if (spatial && node != parameter->standard)
     most = reading->axes; /* a vector of space has no more components than the geometry */
-  value->number = vector_read(reading, node, parameter->name, parameter->unit,
-                              parameter->size_min, most, &value->numbers);
+  value->number = vector_read(reading, node, parameter->name, parameter->unit, parameter->size_min,
+                              most, &value->numbers);
   bool fine = value->number != NULL;
   for (size_t i = 0; fine && i < value->numbers; i++)
     fine = range_check(reading, parameter, node->child[i], value->number[i]);
@@ -97,17 +97,16 @@ static bool formula_read(struct reading *reading, const struct parameter *parame
   const char *text = text_read(reading, node, parameter->name);
   if (!text)
     return false;
-  value->expression =
-      expression_new(text, parameter->choice, parameter->choices, why, sizeof why);
+  value->expression = expression_new(text, parameter->choice, parameter->choices, why, sizeof why);
   if (!value->expression)
     blame_value(reading, node, "arithmetic, such as '2 * x'", "cannot read '%s': %s", text, why);
   return value->expression != NULL;
 }
 
-/* Members of a group that is not given take their defaults; a group that may be absent asks for none. */
+/* Members of a group that is not given take their defaults; a group that may be absent asks for
+ * none. */
 static bool group_read(struct reading *reading, const struct parameter *parameter,
-                       const struct tree *node, const char *path, bool lenient,
-                       struct value *value)
+                       const struct tree *node, const char *path, bool lenient, struct value *value)
 {
   char below[PATH_SIZE], what[128];
   size_t faults = reading->faults;
@@ -115,8 +114,12 @@ static bool group_read(struct reading *reading, const struct parameter *paramete
   snprintf(what, sizeof what, "'%s'", parameter->name);
   if (node && !expect_mapping(reading, node, what))
     node = NULL;
-  struct section section = {.parameter = parameter->member, .count = parameter->members,
-                            .node = node, .path = below, .what = what, .lenient = lenient};
+  struct section section = {.parameter = parameter->member,
+                            .count = parameter->members,
+                            .node = node,
+                            .path = below,
+                            .what = what,
+                            .lenient = lenient};
   value->group = section_read(reading, &section);
   return reading->faults == faults;
 }
@@ -190,8 +193,8 @@ static void missing(struct reading *reading, const struct section *section,
     group_text(parameter, expected, sizeof expected);
   else if (parameter->doc)
     snprintf(expected, sizeof expected, "%s", parameter->doc);
-  blame_missing(reading, section->node, path, expected[0] ? expected : NULL, "'%s' is missing in %s",
-                parameter->name, section->what);
+  blame_missing(reading, section->node, path, expected[0] ? expected : NULL,
+                "'%s' is missing in %s", parameter->name, section->what);
 }
 
 static void parameter_read(struct reading *reading, const struct section *section,
@@ -255,8 +258,8 @@ gamut_status values_read(const struct descriptor *descriptor, const struct param
     snprintf(what, sizeof what, "'%s'", path);
   if (node && !expect_mapping(&reading, node, what))
     return GAMUT_SCENE;
-  struct section section = {own ? descriptor : NULL, parameter, count, node, path, what, also,
-                            others, false};
+  struct section section = {
+      own ? descriptor : NULL, parameter, count, node, path, what, also, others, false};
   *values = section_read(&reading, &section);
   if (reading.faults) {
     values_free(*values);

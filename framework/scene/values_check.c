@@ -77,7 +77,8 @@ bool given_set_names(const struct descriptor *descriptor, const char *name)
   return false;
 }
 
-/* A set fits if it holds every member of sets that the scene gives, and the rest of it has defaults. */
+/* A set fits if it holds every member of sets that the scene gives, and the rest of it has
+ * defaults. */
 static const struct given_set *choose(struct values *values, const struct descriptor *descriptor,
                                       size_t *given)
 {
@@ -115,8 +116,7 @@ static void blame_sets(struct reading *reading, struct values *values,
     if (was_meant(reading, values->node, values->parameter[i].name) &&
         given_set_names(descriptor, values->parameter[i].name)) {
       return;
-    } else if (values->value[i].given &&
-               given_set_names(descriptor, values->parameter[i].name)) {
+    } else if (values->value[i].given && given_set_names(descriptor, values->parameter[i].name)) {
       names[count++] = values->parameter[i].name;
       last = values->value[i].node;
     }
@@ -158,7 +158,8 @@ static void derive(struct reading *reading, struct values *values,
   }
 }
 
-/* The numbers that a constraint compares, "T_melt = 200 K, T_room = 298 K"; and the last given one. */
+/* The numbers that a constraint compares, "T_melt = 200 K, T_room = 298 K"; and the last given one.
+ */
 static const struct tree *compared(const struct numbers *n, const struct expression *expression,
                                    char *list, size_t size)
 {
@@ -169,9 +170,9 @@ static const struct tree *compared(const struct numbers *n, const struct express
     if (!expression_uses(expression, i))
       continue;
     const char *unit = n->value[i]->parameter->unit;
-    length += (size_t)snprintf(list + length, size - length, "%s%s = %.6g%s%s",
-                               length ? ", " : "", n->name[i], n->number[i],
-                               unit_is_pure(unit) ? "" : " ", unit_is_pure(unit) ? "" : unit);
+    length += (size_t)snprintf(list + length, size - length, "%s%s = %.6g%s%s", length ? ", " : "",
+                               n->name[i], n->number[i], unit_is_pure(unit) ? "" : " ",
+                               unit_is_pure(unit) ? "" : unit);
     if (n->value[i]->node && !node)
       node = n->value[i]->node;
   }

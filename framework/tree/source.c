@@ -115,8 +115,10 @@ gamut_status source_check(const struct origin *origin, const char *text, size_t 
     if (length == 0 || code == 0)
       return trace_fail_at(trace, blame, &place, NULL, "if it is text, save it as UTF-8",
                            "this looks like a binary file: byte 0x%02X is no text", byte[k]);
-    return trace_fail_at(trace, blame, &place, NULL,
-                         "remove it, or write it as \\u%04X in \"quotes\"",
+    char expected[64];
+    snprintf(expected, sizeof expected, "remove it, or write it as \\u%04X in \"quotes\"",
+             (unsigned)code);
+    return trace_fail_at(trace, blame, &place, NULL, expected,
                          "the control character U+%04X is not allowed", (unsigned)code);
   }
   return GAMUT_OK;

@@ -1,5 +1,5 @@
-/* Scenes: values, what is refused and how it is said, includes, overrides, shapes, quantities,
- * distributions. The plugins are those of scene_plugins/: nothing is opened. */
+/* Scenes: values, what is refused and how it is said, includes, overrides, shapes, quantities.
+ * The plugins are those of scene_plugins/: nothing is opened. */
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -132,8 +132,9 @@ static void test_keys(void)
            "density: 2 kg/m3}}}\n" BAR,
       "(materials.m.eos.density)", "unknown key 'density' in eos 'spring'",
       "'density' belongs one level up, to the material");
-  bad(HEAD METAL BAR "  bar2: {material: coper, shape: {sphere: {radius: 1 mm, center: [0 m, 1 m]}}}"
-                     "\n",
+  bad(HEAD METAL BAR
+      "  bar2: {material: coper, shape: {sphere: {radius: 1 mm, center: [0 m, 1 m]}}}"
+      "\n",
       "(bodies.bar2.shape.sphere.center)", "unknown key 'center' in a sphere",
       "did you mean 'centre'?");
   bad(GOOD "effects: {w: {model: floor, plan: {}}}\n", "(effects.w.plan)", "unknown key 'plan'",
@@ -165,8 +166,8 @@ static void test_values(void)
   bad(MATERIAL("density: 39ab, " EOS), "density", "'39ab' is no number", "such as");
   bad(MATERIAL("density: .nan, " EOS), "density", "'.nan' is no", "kg/m3");
   bad(MATERIAL("density: nan kg/m3, " EOS), "density", "'nan kg/m3' is no finite number", "kg/m3");
-  bad(MATERIAL("density: [1 kg/m3], " EOS), "density", "'density' is a vector where a number is due",
-      "8960 kg/m3");
+  bad(MATERIAL("density: [1 kg/m3], " EOS), "density",
+      "'density' is a vector where a number is due", "8960 kg/m3");
   bad(MATERIAL(EOS), "(materials.copper.density)", "'density' is missing in material 'copper'",
       "kg/m3");
   bad(MATERIAL("density: 1 kg/m3, eos: {model: spring}"), "(materials.copper.eos.bulk_modulus)",
@@ -187,7 +188,8 @@ static void test_values(void)
       "less than 0.5");
   bad(MATERIAL("density: 1 kg/m3"), "(materials.copper.eos)",
       "'eos' is missing in material 'copper'", "");
-  bad(HEAD METAL "bodies: {b: {material: copper, shape: {sphere: {radius: 4 mm}}, velocity: 1 m/s}}",
+  bad(HEAD METAL
+      "bodies: {b: {material: copper, shape: {sphere: {radius: 4 mm}}, velocity: 1 m/s}}",
       "(bodies.b.velocity)", "'velocity' is a number where a vector is due", "[0 m/s, -100 m/s]");
   bad(HEAD METAL "bodies: {b: {material: coper, shape: {sphere: {radius: 4 mm}}}}",
       "(bodies.b.material)", "unknown material 'coper'", "did you mean 'copper'?");
@@ -197,8 +199,9 @@ static void test_together(void)
 {
   char *words;
   gamut_status status;
-  const char *text = "gamut: 1\nsolver: {model: grid, cel: 1 mm, end: 5}\nmaterials: {m: {densty: 1}}"
-                     "\nbodies: {b: {material: n}}\nquantities: {q: {}}\n";
+  const char *text =
+      "gamut: 1\nsolver: {model: grid, cel: 1 mm, end: 5}\nmaterials: {m: {densty: 1}}"
+      "\nbodies: {b: {material: n}}\nquantities: {q: {}}\n";
   struct scene *scene = read_with(text, NULL, 0, &words, &status);
   size_t errors = 0;
   for (const char *at = words; (at = strstr(at, "error:")); at++)
@@ -209,7 +212,7 @@ static void test_together(void)
 static void test_bodies(void)
 {
 #define TWO(one, two)                                                                              \
-  HEAD METAL "bodies:\n  one: {material: copper, shape: " one                                     \
+  HEAD METAL "bodies:\n  one: {material: copper, shape: " one                                      \
              "}\n  two: {material: copper, shape: " two "}\n"
   bad(TWO("{cylinder: {radius: 4 mm, length: 10 mm}}",
           "{cylinder: {radius: 4 mm, length: 10 mm, base: [0 mm, 9 mm]}}"),
@@ -217,16 +220,17 @@ static void test_bodies(void)
   scene_free(good("touching cylinders",
                   TWO("{cylinder: {radius: 4 mm, length: 10 mm}}",
                       "{cylinder: {radius: 4 mm, length: 10 mm, base: [0 mm, 10 mm]}}")));
-  scene_free(good("a sphere on a cylinder",
-                  TWO("{cylinder: {radius: 4 mm, length: 10 mm}}",
-                      "{sphere: {radius: 3 mm, centre: [0 mm, 13 mm]}}")));
+  scene_free(
+      good("a sphere on a cylinder", TWO("{cylinder: {radius: 4 mm, length: 10 mm}}",
+                                         "{sphere: {radius: 3 mm, centre: [0 mm, 13 mm]}}")));
   bad(TWO("{box: {min: [0 mm, 0 mm], max: [1 mm, 1 mm]}}",
           "{box: {size: [1 mm, 1 mm], centre: [1 mm, 1.4 mm]}}"),
       "(bodies.two.shape)", "overlap", "");
   bad("gamut: 1\nsolver: {model: grid, geometry: axisymmetric, cell: 5 mm, end: 1 us}\n" METAL BAR,
       "(solver.cell)", "cell = 0.005 m is larger than body 'bar', which has 0.004 m along x",
       "at most 0.004 m");
-  bad("gamut: 1\nsolver: {model: grid, geometry: axisymmetric, cell: 1 mm, end: 1 us, domain: {min: "
+  bad("gamut: 1\nsolver: {model: grid, geometry: axisymmetric, cell: 1 mm, end: 1 us, domain: "
+      "{min: "
       "[0 mm, 0 mm], max: [9 mm, 20 mm]}}\n" METAL BAR,
       "(bodies.bar.shape)", "body 'bar' is outside the domain", "y = 0 m to 0.02 m");
   bad(HEAD METAL "bodies: {b: {material: copper, shape: {cylinder: {radius: 4 mm, length: 1 mm, "
@@ -254,10 +258,10 @@ static void test_effects(void)
       "'specific_heat' is missing in material 'copper': effect 'h' needs it", "heat capacity");
   bad(GOOD "effects: {h: {model: heat, bodies: [bra]}}\n", "(effects.h.bodies.0)",
       "unknown body 'bra'", "did you mean 'bar'?");
-  struct scene *scene = good("an effect on no body",
-                             HEAD METAL "  other: {density: 1 kg/m3, eos: {model: spring, "
-                                        "bulk_modulus: 1 GPa}}\n" BAR
-                                        "effects: {h: {model: heat, materials: other}}\n");
+  struct scene *scene =
+      good("an effect on no body", HEAD METAL "  other: {density: 1 kg/m3, eos: {model: spring, "
+                                              "bulk_modulus: 1 GPa}}\n" BAR
+                                              "effects: {h: {model: heat, materials: other}}\n");
   if (scene)
     tap_ok(!scene->effect[0].on_body[0], "materials: selects the bodies");
   scene_free(scene);
@@ -302,7 +306,8 @@ static void test_quantities(void)
 static void test_random(void)
 {
 #define RANDOM(text)                                                                               \
-  HEAD "materials: {copper: {density: 1 kg/m3, eos: {model: spring, bulk_modulus: " text "}}}\n" BAR
+  HEAD "materials: {copper: {density: 1 kg/m3, eos: {model: spring, bulk_modulus: " text "}}}"     \
+       "\n" BAR
   struct scene *scene = good("a random parameter", RANDOM("{mean: 100 GPa, cv: 0.1}"));
   if (scene) {
     const struct value *k = values_find(scene->material[0].eos.values, "bulk_modulus");
@@ -311,8 +316,8 @@ static void test_random(void)
     tap_relative("its deviation", k->random->deviation, 10e9, 1e-15);
   }
   scene_free(scene);
-  bad(RANDOM("{mean: 100 GPa}"), "bulk_modulus", "the spread of the random 'bulk_modulus' is missing",
-      "cv");
+  bad(RANDOM("{mean: 100 GPa}"), "bulk_modulus",
+      "the spread of the random 'bulk_modulus' is missing", "cv");
   bad(RANDOM("{mean: 100 GPa, cv: 0.1, distribution: normel}"), "distribution",
       "unknown distribution 'normel'", "did you mean 'normal'?");
   char *words;
@@ -321,7 +326,8 @@ static void test_random(void)
   tap_ok(scene && strstr(words, "0.00621 of the distribution") && strstr(words, "warning"),
          "mass outside the physical range is told");
   scene_free(scene);
-  bad(HEAD METAL "    source: x\n" BAR "effects: {h: {model: heat, taylor_quinney: {mean: 1, sd: 1}}}",
+  bad(HEAD METAL "    source: x\n" BAR
+                 "effects: {h: {model: heat, taylor_quinney: {mean: 1, sd: 1}}}",
       "taylor_quinney", "'taylor_quinney' is a mapping where a number is due", "cannot be random");
 }
 
@@ -413,42 +419,6 @@ static void test_schema(void)
   json_decref(schema);
 }
 
-static void test_distributions(void)
-{
-  static const struct distribution d[] = {
-      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_UNIFORM, 3, 0.577350269189626, 2, 4, false},
-      {DISTRIBUTION_WEIBULL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_GAMMA, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_BETA, 3, 0.5, 1, 6, false},
-      {DISTRIBUTION_TRIANGULAR, 3, 0.8164965809277260, 1, 5, false},
-      {DISTRIBUTION_NORMAL, 3, 0.5, 4, INFINITY, true},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, 2.5, 3.5, true},
-  };
-  static const char *const names[] = DISTRIBUTION_NAMES;
-  for (size_t i = 0; i < sizeof d / sizeof d[0]; i++) {
-    enum { N = 20000 };
-    double worst = 0, mean = 0, square = 0;
-    char name[64];
-    for (int k = 0; k < N; k++) {
-      double u = (k + 0.5) / N, x = distribution_quantile(&d[i], u);
-      worst = fmax(worst, fabs(distribution_below(&d[i], x) - u));
-      mean += x / N;
-      square += x * x / N;
-    }
-    snprintf(name, sizeof name, "%s%s: probability of the quantile", names[d[i].kind],
-             d[i].truncated ? ", truncated" : "");
-    tap_absolute(name, worst, 0, 1e-10);
-    if (d[i].truncated)
-      continue;
-    snprintf(name, sizeof name, "%s: mean by midpoints", names[d[i].kind]);
-    tap_relative(name, mean, d[i].mean, 1e-5);
-    snprintf(name, sizeof name, "%s: deviation by midpoints", names[d[i].kind]);
-    tap_relative(name, sqrt(square - mean * mean), d[i].deviation, 1e-3);
-  }
-}
-
 static void add_plugins(const char *from, struct trace *trace)
 {
   static const char *const name[] = {"grid",  "spring", "metal", "hypoelastic",
@@ -485,7 +455,6 @@ int main(void)
   test_sets();
   test_set_value();
   test_schema();
-  test_distributions();
   registry_free(registry);
   units_free(units);
   trace_free(trace);
