@@ -12,7 +12,8 @@
  *         physical: "(0, inf)", random: true, optional: false, doc: ..., source: ...}
  *     types: real (default), integer, boolean, choice (choices: [..]), text, vector (size: 2 or
  *     "1..3"), body (name of a body), expression (variables: [x, y, z]), table (columns: {time: s,
- *     strain: 1}; a sequence of rows or {file: NAME.csv}), group (members: like parameters).
+ *     strain: 1}; a sequence of rows or {file: NAME.csv}; of two columns also one number, which is
+ *     the row [0, number]), group (members: like parameters).
  *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI
  *     unless they carry a unit: "[a, b)", "(0, inf)".
  *   constraints: ["T_melt > T_room"]   comparisons over real parameters
