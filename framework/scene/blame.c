@@ -239,11 +239,11 @@ void expect_keys(struct reading *reading, const struct tree *node, const char *c
 
 bool expect_name(struct reading *reading, const struct tree *node, const char *what)
 {
-  bool fine = node->key[0] && strlen(node->key) < 64;
+  bool fine = isalnum((unsigned char)node->key[0]) && strlen(node->key) < 64;
   for (const char *c = node->key; *c && fine; c++)
-    fine = isalnum((unsigned char)*c) || *c == '_' || *c == '-';
+    fine = isalnum((unsigned char)*c) || *c == '_' || *c == '-' || *c == '.';
   if (!fine)
-    blame_key(reading, node, "letters, digits, '_' and '-', at most 63 of them",
+    blame_key(reading, node, "letters, digits, '_', '-' and '.', at most 63 of them, first a letter or digit",
               "'%s' cannot be the name of %s", node->key, what);
   return fine;
 }

@@ -81,7 +81,7 @@ static gamut_status diameter(struct model *m, const struct cloud *c,
 {
   const char *name = gamut_text(arguments, "along");
   const int along = name[0] == 'x' ? 0 : name[0] == 'y' ? 1 : 2, axis = along == 0 ? 1 : 0;
-  const double part = gamut_real(arguments, "at");
+  const double part = gamut_real(arguments, "height");
   double low = 0.0, high = 0.0, from = 0.0, to = 0.0;
   if (along >= (int)m->dimension || axis >= (int)m->dimension)
     return gamut_fail(m->run, GAMUT_SCENE, "a diameter needs two axes");
