@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdarg.h>
+#include <string.h>
 
 #include "field/vocabulary.h"
 #include "run/host.h"
@@ -152,6 +153,14 @@ static gamut_status host_arrange(struct gamut_run *run, struct gamut_set *set,
   return set_arrange(set_inside(set), source, slots, first, blocks, run->trace);
 }
 
+/* A state that the elasticity does not know (an effect's temperature) begins as it was set. */
+static void carry_all(const struct gamut_run *run, const struct gamut_chunk *chunk)
+{
+  for (size_t k = 0; k < fields_components(run->fields); k++)
+    if (run->start_source[k] == SOURCE_FRESH && chunk->begin[k])
+      memcpy(chunk->end[k], chunk->begin[k], chunk->count * sizeof(double));
+}
+
 static gamut_status host_start_material(struct gamut_run *run, struct gamut_set *open)
 {
   gamut_status status;
@@ -162,6 +171,7 @@ static gamut_status host_start_material(struct gamut_run *run, struct gamut_set 
   for (size_t slot = 0; slot < open->slots; slot += run->chunk) {
     size_t count = open->slots - slot < run->chunk ? open->slots - slot : run->chunk;
     scratch_bind(run->scratch[0], set, run->start_source, run->uniform, slot, count, &chunk);
+    carry_all(run, &chunk);
     material_start(material, &chunk);
     material_tally(material, &chunk);
     scratch_commit(run->scratch[0], run->start_source, &chunk);
