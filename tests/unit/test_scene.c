@@ -248,6 +248,38 @@ static void test_bodies(void)
   scene_free(scene);
 }
 
+static void table(const char *text, size_t numbers, double last)
+{
+  char whole[4096], name[128];
+  snprintf(whole, sizeof whole,
+           "gamut: 1\nsolver: {model: grid, geometry: axisymmetric, cell: 1 mm, end: 1 s, load: "
+           "%s}\n%s%s",
+           text, METAL, BAR);
+  snprintf(name, sizeof name, "a table %s", text);
+  struct scene *scene = good(name, whole);
+  const struct value *load = scene ? values_find(scene->solver.values, "load") : NULL;
+  if (load && tap_ok(load->numbers == numbers, "%zu numbers", load->numbers))
+    tap_relative("the last", load->number[numbers - 1], last, 1e-15);
+  scene_free(scene);
+}
+
+static void test_tables(void)
+{
+  write_file("load.csv", "# measured\npressure [MPa], other, time [us]\n1, x, 0\n\n2, y, 3\n");
+  write_file("odd.csv", "time, pressure\n0, 1\n1, two\n");
+  table("[[0 s, 1 MPa], [1 us, 3 MPa]]", 4, 3e6);
+  table("{file: load.csv}", 4, 2e6);
+  table("5 MPa", 2, 5e6);
+#define LOAD(text)                                                                                 \
+  "gamut: 1\nsolver: {model: grid, geometry: 3d, cell: 1 mm, end: 1 s, load: " text "}\n"
+  bad(LOAD("{file: odd.csv}"), "(solver.load.file)", "odd.csv:3: 'two' is no value of 'pressure'",
+      "SI");
+  bad(LOAD("{file: none.csv}"), "(solver.load.file)", "table file 'none.csv' cannot be read", "");
+  bad(LOAD("[[0 s]]"), "(solver.load.0)", "row 1 of the table 'load' has not 2 columns",
+      "[time, pressure]");
+  bad(LOAD("[]"), "(solver.load)", "'load' is an empty list where a table is due", "rows");
+}
+
 static void test_effects(void)
 {
   bad(GOOD "effects: {b: {model: beam}}\n", "(effects.b)",
@@ -448,6 +480,7 @@ int main(void)
   test_values();
   test_together();
   test_bodies();
+  test_tables();
   test_effects();
   test_quantities();
   test_random();
