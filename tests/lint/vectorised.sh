@@ -7,7 +7,7 @@ number=0
 # A GAMUT_EACH stands where the compiler reports its loop, or a line above. One inside a macro is
 # reported where the macro is used. Prints the lines of loops that are not reported.
 read -r -d '' missing <<'AWK'
-FNR == NR { if (match($0, /:[0-9]+:[0-9]+: optimized: +loop vectorized/)) {
+FILENAME == ARGV[1] { if (match($0, /:[0-9]+:[0-9]+: optimized: +loop vectorized/)) {
               split(substr($0, RSTART + 1), place, ":"); seen[place[1]] = 1 }
             next }
 /^#define/ { define = $2; sub(/\(.*/, "", define) }
@@ -24,12 +24,13 @@ vectorises()
   local level=$1 file=$2 report lines
   shift 2
   number=$((number + 1))
-  # With -g the places are those of the loops. Distribution off: a loop
-  # would be split, with one half vectorised, or become a memset, fast but not reported.
+  # With -g the places are those of the loops. Distribution off: it splits
+  # loops, of which one half may vectorise, or makes a memset of them, fast but not reported.
   # shellcheck disable=SC2086 # CC may hold flags
   if ! report=$($CC -std=gnu11 -g -O3 -fno-math-errno -fno-trapping-math -fopenmp-simd "$@" \
     -fno-tree-loop-distribute-patterns -fno-tree-loop-distribution -Iframework/include \
-    "-I$builddir/$(dirname "$file")" "-I$(dirname "$file")" -fopt-info-vec-optimized -S -o /dev/null "$file" 2>&1); then
+    "-I$builddir/$(dirname "$file")" "-I$(dirname "$file")" -fopt-info-vec-optimized \
+    -S -o /dev/null "$file" 2>&1); then
     echo "not ok $number - $file compiles for $level"
     printf '%s\n' "$report" | head -n 20 | sed 's/^/# /'
     return

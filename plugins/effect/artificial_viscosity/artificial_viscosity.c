@@ -9,10 +9,11 @@ static void viscosity(const struct artificial_viscosity *b)
         b->velocity_gradient[0][i] + b->velocity_gradient[4][i] + b->velocity_gradient[8][i];
     double closing = rate < 0.0 ? -rate : 0.0, h = b->cell_size[i], c = b->sound_speed[i];
     double rho = b->reference_density[i] / b->volume_ratio[i];
-    double linear = b->linear[i] * c, quadratic = b->quadratic[i] * h * closing;
+    double linear = b->linear[i] * (closing > 0.0 ? c : 0.0);
+    double quadratic = b->quadratic[i] * h * closing;
     b->viscous_pressure[i] = rho * h * closing * (linear + quadratic);
     /* c x, the damping ratio x times c: stays finite in matter without sound speed. */
-    double damping = closing > 0.0 ? linear + 2.0 * quadratic : 0.0;
+    double damping = linear + 2.0 * quadratic;
     double square = 2.0 * damping * (damping + sqrt(c * c + damping * damping));
     b->omega_squared[i] += 4.0 / (h * h) * square;
   }
