@@ -243,7 +243,8 @@ bool expect_name(struct reading *reading, const struct tree *node, const char *w
   for (const char *c = node->key; *c && fine; c++)
     fine = isalnum((unsigned char)*c) || *c == '_' || *c == '-' || *c == '.';
   if (!fine)
-    blame_key(reading, node, "letters, digits, '_', '-' and '.', at most 63 of them, first a letter or digit",
+    blame_key(reading, node,
+              "letters, digits, '_', '-' and '.', at most 63 of them, first a letter or digit",
               "'%s' cannot be the name of %s", node->key, what);
   return fine;
 }

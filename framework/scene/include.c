@@ -84,8 +84,32 @@ static bool step_up(char *folder, size_t size)
   return true;
 }
 
-/* Looks beside the including file, in the folders `inputs` at and above it, in the installed one.
+/* The folder `inputs` of the tree that a program built in place belongs to, or the installed one.
  */
+static bool locate_data(const char *name, char *path, size_t size)
+{
+  char program[PATH_MAX];
+  ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
+  program[length > 0 ? length : 0] = 0;
+  char *slash = strrchr(program, '/');
+  if (slash) {
+    *slash = 0;
+    snprintf(path, size, "%s/plugins.path", program);
+    if (exists(path)) {
+      snprintf(path, size, "%s/../inputs/%s", program, name);
+      if (exists(path))
+        return true;
+    }
+  }
+#ifdef GAMUT_DATA_DIR
+  snprintf(path, size, "%s/%s", GAMUT_DATA_DIR, name);
+  return exists(path);
+#else
+  return false;
+#endif
+}
+
+/* Looks beside the including file, in the folders `inputs` at and above it, in gamut's own. */
 static bool locate(const char *from, const char *name, char *path, size_t size)
 {
   const char *slash = strrchr(from, '/');
@@ -110,12 +134,7 @@ static bool locate(const char *from, const char *name, char *path, size_t size)
     if (strcmp(real, "/") == 0 || !step_up(folder, sizeof folder))
       break;
   }
-#ifdef GAMUT_DATA_DIR
-  snprintf(path, size, "%s/%s", GAMUT_DATA_DIR, name);
-  if (exists(path))
-    return true;
-#endif
-  return false;
+  return locate_data(name, path, size);
 }
 
 static const char *chain_text(const struct chain *chain, const char *last, char *buffer,
@@ -141,7 +160,8 @@ static bool item_read(struct reading *reading, const struct tree *item, struct c
   if (!text)
     return false;
   if (!locate(chain->shown[chain->depth - 1], text, path, sizeof path)) {
-    blame_value(reading, item, "a path from this file's folder, or from a folder 'inputs' above it",
+    blame_value(reading, item,
+                "a path from this file's folder, or from a folder 'inputs' above it or of gamut",
                 "included file '%s' is not found (%s)", text,
                 chain_text(chain, text, words, sizeof words));
     return false;

@@ -71,7 +71,7 @@ gamut_status scene_read(const char *file, const struct scene_override *override,
   char *name = scene_keep(&reading, strlen(file) + 1, 1);
   store->shown.file = strcpy(name, file);
   store->shown.tree = include_read(&reading, file, override, overrides);
-  if (store->shown.tree)
+  if (store->shown.tree && reading.faults == 0) /* without an include much would seem missing */
     sections_read(&reading, &store->shown);
   if (reading.faults == 0)
     *scene = &store->shown;
