@@ -52,6 +52,7 @@ struct point {
   const char *body;
   double H[9], H_end[9];  /* F - I at the beginning and the end of the step */
   double rate[SYMMETRIC]; /* of stress-controlled components in the step before */
+  bool moved;             /* there was one */
   double A[9];            /* of the step */
   double work_step, energy;
   double work;

@@ -195,6 +195,48 @@ static gamut_status solve(struct system *s, struct point *point, double move[SYM
   return status;
 }
 
+/* Without a step before to go by, a long step may end at a root far from the path: shares of the step
+ * lead there, from one that is as good as linear. */
+static gamut_status approach(const struct system *whole, struct point *point,
+                             double move[SYMMETRIC])
+{
+  static const double share[] = {1e-4, 1e-3, 1e-2, 0.1, 0.3, 1.0};
+  enum { SHARES = sizeof share / sizeof share[0] };
+  gamut_status status = GAMUT_OK;
+  for (size_t k = 0; k < whole->unknowns; k++)
+    move[k] = 0.0;
+  for (size_t i = 0; i < SHARES && status == GAMUT_OK; i++) {
+    struct system part = *whole;
+    for (size_t k = 0; k < 9; k++)
+      part.fixed[k] *= share[i];
+    for (size_t k = 0; k < whole->unknowns; k++) {
+      double begin = gamut_begin(whole->chunk, whole->driver->stress,
+                                 (unsigned)whole->component[k])[0];
+      part.wanted[k] = share[i] < 1.0 ? begin + share[i] * (whole->wanted[k] - begin)
+                                      : whole->wanted[k];
+      move[k] *= i ? share[i] / share[i - 1] : 0.0;
+    }
+    point->failed = NULL;
+    status = solve(&part, point, move);
+  }
+  return status;
+}
+
+static gamut_status find(struct system *s, struct point *point, double move[SYMMETRIC])
+{
+  gamut_status status = GAMUT_OK;
+  if (!s->unknowns)
+    return GAMUT_OK;
+  if (!point->moved)
+    return approach(s, point, move);
+  for (size_t k = 0; k < s->unknowns; k++)
+    move[k] = point->rate[s->component[k]] * s->dt;
+  status = solve(s, point, move);
+  if (status == GAMUT_OK && point->failed)
+    status = approach(s, point, move);
+  return status;
+}
+
 /* Work of the stress in the step, from J stress at both ends. */
 static double work_of(const struct driver *driver, const struct gamut_chunk *chunk,
                       const struct point *point)
@@ -217,9 +259,7 @@ gamut_status drive(void *self, const struct gamut_chunk *chunk)
   double from = gamut_time(driver->run), move[SYMMETRIC] = {0}, G[9];
   path_increment(&driver->path, from, s.dt, s.fixed);
   s.unknowns = path_stresses(&driver->path, from + s.dt, s.component, s.wanted);
-  for (size_t k = 0; k < s.unknowns; k++)
-    move[k] = point->rate[s.component[k]] * s.dt;
-  gamut_status status = s.unknowns ? solve(&s, point, move) : GAMUT_OK;
+  gamut_status status = find(&s, point, move);
   if (status != GAMUT_OK)
     return status;
   for (size_t lane = 0; lane < chunk->count; lane++)
@@ -230,6 +270,7 @@ gamut_status drive(void *self, const struct gamut_chunk *chunk)
     path_move(&driver->path, s.component[k], move[k], point->A);
     point->rate[s.component[k]] = move[k] / s.dt;
   }
+  point->moved = true;
   exponential_less_one(point->A, G);
   compose(G, point->H, point->H_end);
   const double *energy = chunk->end[driver->energy.first];
