@@ -1,4 +1,4 @@
-/* The skeleton of an estimator plugin. @NAME@ and the like are filled in by command_new. */
+/* The skeleton of an estimator plugin. @NAME@ and its like are filled in. */
 #include "command/new_template.h"
 
 static const char descriptor[] =
@@ -10,7 +10,8 @@ static const char descriptor[] =
     "  mean_error = sqrt(variance / runs), variance_error = sqrt((m4 - variance^2) / runs)\n"
     "source: [textbook]\n"
     "parameters:\n"
-    "  runs: {type: integer, unit: 1, default: 2000, physical: \"[2, 1000000]\", doc: how many runs to make}\n";
+    "  runs: {type: integer, unit: 1, default: 2000, physical: \"[2, 1000000]\", doc: "
+    "how many runs to make}\n";
 
 static const char source[] =
     "#include <stdlib.h>\n"
@@ -53,7 +54,8 @@ static const char source[] =
     "}\n"
     "\n"
     "static gamut_status create(struct gamut_run *run, const struct gamut_values *values,\n"
-    "                           size_t parameters, size_t quantities, uint64_t seed, void **self)\n"
+    "                           size_t parameters, size_t quantities, uint64_t seed, "
+    "void **self)\n"
     "{\n"
     "  struct state *s = calloc(1, sizeof *s + quantities * sizeof s->sums[0]);\n"
     "  if (!s)\n"

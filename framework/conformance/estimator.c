@@ -1,9 +1,11 @@
-/* estimator: known integrals within its own error bars; saved and restored it goes on bit for bit. */
+/* estimator: known integrals within its own error bars; saved and restored it goes on bit for bit.
+ */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "conformance/bare_run.h"
+#include "random/stream.h"
 
 /* Over independent standard normal x and y: a linear and a quadratic quantity. */
 enum { PARAMETERS = 2, QUANTITIES = 2, CAPACITY = 4096, RUNS_MAX = 1 << 20 };
@@ -31,14 +33,16 @@ struct study {
 static gamut_status study_new(struct study *study, struct bare_run *run)
 {
   *study = (struct study){.ops = run->ops};
-  study->batch = (struct gamut_batch){.parameters = PARAMETERS, .quantities = QUANTITIES,
-                                      .capacity = CAPACITY};
+  study->batch = (struct gamut_batch){
+      .parameters = PARAMETERS, .quantities = QUANTITIES, .capacity = CAPACITY};
   study->batch.point = calloc(CAPACITY * PARAMETERS, sizeof(double));
   study->batch.level = calloc(CAPACITY, sizeof(int));
   study->value = calloc(CAPACITY * QUANTITIES, sizeof(double));
   study->batch.value = study->value;
-  return study->ops->create(bare_run_handle(run), run->specimen.values, PARAMETERS, QUANTITIES, 1,
-                            &study->self);
+  const struct gamut_study_shape shape = {.parameters = PARAMETERS,
+                                          .quantities = QUANTITIES,
+                                          .stream = stream_make(1, 0, "conformance")};
+  return study->ops->create(bare_run_handle(run), run->specimen.values, &shape, &study->self);
 }
 
 static void study_free(struct study *study)
@@ -74,8 +78,7 @@ static gamut_status study_end(struct study *study)
 }
 
 struct result {
-  double mean[QUANTITIES], variance[QUANTITIES], mean_error[QUANTITIES],
-      variance_error[QUANTITIES];
+  double mean[QUANTITIES], variance[QUANTITIES], mean_error[QUANTITIES], variance_error[QUANTITIES];
 };
 
 static gamut_status study_report(struct study *study, struct result *result)
@@ -149,8 +152,8 @@ void prove_estimator(struct proof *proof)
   check_begin(&proof->checks, "making the estimator");
   if (bare_run_new(&run, proof)) {
     const struct estimator_operations *ops = run.ops;
-    bool whole = ops->create && ops->destroy && ops->ask && ops->tell && ops->report &&
-                 ops->save && ops->restore;
+    bool whole = ops->create && ops->destroy && ops->ask && ops->tell && ops->report && ops->save &&
+                 ops->restore;
     if (check_that(&proof->checks, whole, "all operations are there")) {
       gamut_status status = study_new(&study, &run);
       check_begin(&proof->checks, "a study of a linear and a quadratic quantity");

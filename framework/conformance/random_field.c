@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "conformance/bare_run.h"
+#include "random/stream.h"
 
 enum { POINTS = 64, REALISATIONS = 4000 };
 
@@ -11,24 +12,6 @@ struct field_operations {
   size_t size;
   GAMUT_RANDOM_FIELD_OPS(void)
 };
-
-static uint64_t mix(uint64_t z)
-{
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  return z ^ (z >> 31);
-}
-
-/* A counter-based stream good enough for these checks: Box and Muller over hashed counters. */
-static double stream_normal(const struct gamut_stream *stream, uint64_t index)
-{
-  uint64_t key = mix(stream->seed + UINT64_C(0x9e3779b97f4a7c15) * (stream->realisation + 1));
-  key = mix(key ^ stream->name);
-  uint64_t a = mix(key + UINT64_C(0x9e3779b97f4a7c15) * (2 * index + 1));
-  uint64_t b = mix(key + UINT64_C(0x9e3779b97f4a7c15) * (2 * index + 2));
-  double u = ((double)(a >> 11) + 0.5) * 0x1p-53, v = (double)(b >> 11) * 0x1p-53;
-  return sqrt(-2 * log(u)) * cos(2 * M_PI * v);
-}
 
 struct places {
   double x[3][POINTS];
@@ -48,15 +31,13 @@ static gamut_status sample(const struct field_operations *ops, const void *self,
                            uint64_t realisation, const struct places *places, size_t from,
                            size_t count, double *value)
 {
-  const struct gamut_stream stream = {.seed = 1, .realisation = realisation, .name = 12345,
-                                      .normal = stream_normal};
-  const double *const position[3] = {places->x[0] + from, places->x[1] + from,
-                                     places->x[2] + from};
+  const struct gamut_stream stream = stream_make(1, realisation, "conformance");
+  const double *const position[3] = {places->x[0] + from, places->x[1] + from, places->x[2] + from};
   return ops->sample(self, &stream, count, position, places->id + from, value);
 }
 
-static void prove_company(struct proof *proof, const struct field_operations *ops,
-                          const void *self, const struct places *places)
+static void prove_company(struct proof *proof, const struct field_operations *ops, const void *self,
+                          const struct places *places)
 {
   double whole[POINTS], part[POINTS];
   size_t different = 0;
@@ -73,8 +54,8 @@ static void prove_company(struct proof *proof, const struct field_operations *op
              "another realisation has other values");
 }
 
-static void prove_moments(struct proof *proof, const struct field_operations *ops,
-                          const void *self, const struct places *places)
+static void prove_moments(struct proof *proof, const struct field_operations *ops, const void *self,
+                          const struct places *places)
 {
   static double value[POINTS], sum[POINTS], squares[POINTS];
   gamut_status status = GAMUT_OK;

@@ -369,9 +369,10 @@ bool material_flag(const struct bound_material *bound, size_t index, struct flag
   return false;
 }
 
+/* A law that stops a point knows the cause; the elasticity around it sees only the consequence. */
 bool material_stopped(struct bound_material *bound, struct flag_stop *stop)
 {
-  for (int role = 0; role < ROLES; role++)
+  for (int role = ROLES - 1; role >= 0; role--)
     if (bound->kernel[role] &&
         tally_stopped(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
                       bound->kernel[role]->descriptor, stop))

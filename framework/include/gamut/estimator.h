@@ -13,8 +13,17 @@ struct gamut_batch {
   size_t capacity;    /* rows there is room for */
   size_t rows;        /* out of ask: runs wanted; 0 ends the study */
   double *point;      /* out of ask: rows x parameters, in units of standard deviations */
-  int *level;         /* out of ask: which list of scene overrides, 0 is the scene itself */
+  int *level;         /* out of ask: which of the study's levels (lists of scene overrides); 0 where
+                         there are none */
   const double *value; /* into tell: rows x quantities; NaN where the run failed */
+};
+
+/* What an estimator is told when it is made. */
+struct gamut_study_shape {
+  size_t parameters; /* random parameters */
+  size_t quantities; /* values a run gives */
+  size_t levels;     /* lists of scene overrides; 0: none */
+  struct gamut_stream stream; /* of the study's seed; number realisations as you like */
 };
 
 /* What a study is after. Owned by the core, `quantities` entries each. */
@@ -24,9 +33,9 @@ struct gamut_moments {
 };
 
 #define GAMUT_ESTIMATOR_OPS(B)                                                                     \
-  /* required. `parameters` and `quantities` as in the batch; seed is the study's. */               \
-  gamut_status (*create)(struct gamut_run *, const struct gamut_values *, size_t parameters,       \
-                         size_t quantities, uint64_t seed, void **self);                           \
+  /* required. What the study has; the struct is borrowed for the call, its stream may be copied. */ \
+  gamut_status (*create)(struct gamut_run *, const struct gamut_values *,                           \
+                         const struct gamut_study_shape *, void **self);                           \
   void (*destroy)(void *self);                                                                     \
   gamut_status (*ask)(void *self, struct gamut_batch *);                                           \
   gamut_status (*tell)(void *self, const struct gamut_batch *);                                    \

@@ -4,13 +4,6 @@
 
 #include <gamut/run.h>
 
-/* Counter-based stream of standard normal numbers: the same (seed, realisation, name, index) gives
- * the same number on any machine and thread, in any order. */
-struct gamut_stream {
-  uint64_t seed, realisation, name; /* name: hash of the parameter's scene path */
-  double (*normal)(const struct gamut_stream *, uint64_t index);
-};
-
 #define GAMUT_RANDOM_FIELD_OPS(B)                                                                  \
   gamut_status (*create)(struct gamut_run *, const struct gamut_values *, void **self);            \
   void (*destroy)(void *self);                                                                     \

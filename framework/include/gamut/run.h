@@ -145,6 +145,22 @@ struct gamut_reaction {
  * the bookkeeping, stored energy grown beyond what was supplied is an instability (exit 5). */
 enum gamut_ledger_role { GAMUT_STORED, GAMUT_SUPPLIED, GAMUT_LOST };
 
+/* ---- chance ----------------------------------------------------------------------------------- */
+
+/* Counter-based stream of random numbers (Philox): the same (seed, realisation, name, index) gives the
+ * same number on any machine and thread, in any order. Copy it freely; change realisation at will. */
+struct gamut_stream {
+  uint64_t seed, realisation;
+  uint64_t name; /* hash of what it is for: a parameter's scene path */
+  double (*normal)(const struct gamut_stream *, uint64_t index);  /* mean 0, variance 1 */
+  double (*uniform)(const struct gamut_stream *, uint64_t index); /* between 0 and 1, neither */
+};
+
+/* A strength or eos of a body's material with arrays of the solver's own: its parameters, inputs and
+ * outputs by name, each `count` values (see the law's descriptor). For solvers that do not update
+ * materials by an elasticity. */
+struct gamut_law;
+
 /* ---- the table ------------------------------------------------------------------------------- */
 
 struct gamut_host {

@@ -1,0 +1,51 @@
+/* Many runs of one scene: ask an estimator, run, tell it. The loop owns threads, failures, resuming
+ * and the files; the estimator only the mathematics.
+ *
+ * uncertainty:
+ *   estimator: {model: monte_carlo, runs: 30}   any plugin of kind estimator
+ *   seed: 1
+ *   correlation: [[path, path, 0.4]]            of the normal variables behind the parameters
+ *   failures: 0.1                               share of runs that may fail (default 0.1)
+ *
+ * A run gets row k of a batch: standard normal numbers, one a random parameter. They are correlated by
+ * Cholesky, turned into probabilities and through each parameter's quantile function into values. A
+ * level is a list of scene overrides (`type: levels` parameter of the estimator: a mapping of scene
+ * paths to lists of values, combined as a grid or side by side). Runs of a batch go side by side on
+ * threads, each run on one; results are told in the order of rows, so tables do not depend on threads.
+ *
+ * Every finished run is appended to study.log in the result folder, so that --resume repeats nothing.
+ * study.csv and /study in results.h5 hold one row a run: parameters, scalar quantities, status, reason.
+ * Curves are put on a common axis (times of the nominal run's histories; else a grid of the overlap of
+ * their axes) and their mean and variance are taken there. */
+#ifndef GAMUT_STUDY_H
+#define GAMUT_STUDY_H
+
+#include "registry/registry.h"
+#include "run/run.h"
+#include "scene/scene.h"
+#include "store/store.h"
+#include "unit/unit.h"
+
+struct study_options {
+  int threads;        /* runs side by side; 0: as many as OpenMP says */
+  bool resume;        /* go on with study.log of the folder */
+  const volatile sig_atomic_t *stop;
+  void (*progress)(void *, size_t done, size_t asked, size_t failed);
+  void *progress_self;
+};
+
+struct study;
+/* Whether the scene asks for a study. */
+bool study_wanted(const struct scene *);
+/* file and overrides are read again for every level. Everything is checked before anything runs. */
+gamut_status study_new(const char *file, const struct scene_override *, size_t overrides,
+                       struct scene *, struct registry *, const struct units *,
+                       const struct study_options *, struct trace *, struct study **);
+void study_free(struct study *);
+/* Runs to the estimator's end. GAMUT_NUMERICS if too many runs failed, GAMUT_STOPPED if told to stop
+ * (study.log is then complete: --resume goes on). */
+gamut_status study_run(struct study *, const char *folder, struct trace *);
+/* summary.json with mean, variance and their errors, and the `study` entry; to be freed. */
+char *study_summary(const struct study *, gamut_status);
+
+#endif
