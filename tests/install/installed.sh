@@ -51,9 +51,8 @@ header_compiles()
 # What a plugin author does.
 new_plugin()
 {
-  local folder=$scratch/$1
-  "$GAMUT" new "$1/trial" -o "$folder" || return 1
-  [ -f "$folder/Makefile" ] || folder=$folder/trial
+  local folder=$scratch/$1/trial
+  mkdir "$scratch/$1" && "$GAMUT" new "$1/trial" -o "$folder" || return 1
   make -C "$folder" && "$GAMUT" verify "$folder"
 }
 
