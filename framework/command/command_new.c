@@ -75,11 +75,11 @@ static gamut_status write_files(struct command *command, const char *folder,
 static bool name_is_good(const char *name)
 {
   static const char *const taken[] = {
-      "auto",   "break",  "case",    "char",   "const",  "continue", "default", "do",
-      "double", "else",   "enum",    "extern", "float",  "for",      "goto",    "if",
-      "inline", "int",    "long",    "main",   "move",   "register", "return",  "short",
-      "signed", "sizeof", "static",  "struct", "switch", "typedef",  "union",   "unsigned",
-      "void",   "while",  "pressure", "stress", "drag",  "state",    "sample",  "start"};
+      "auto",   "break",  "case",     "char",   "const",  "continue", "default", "do",
+      "double", "else",   "enum",     "extern", "float",  "for",      "goto",    "if",
+      "inline", "int",    "long",     "main",   "move",   "register", "return",  "short",
+      "signed", "sizeof", "static",   "struct", "switch", "typedef",  "union",   "unsigned",
+      "void",   "while",  "pressure", "stress", "drag",   "state",    "sample",  "start"};
   size_t length = strlen(name);
   if (length == 0 || length > 40 || !islower((unsigned char)name[0]))
     return false;
@@ -142,8 +142,8 @@ gamut_status command_new(struct command *command)
   if (mkdir(folder, 0755) != 0) {
     status = errno == EEXIST
                  ? trace_fail(command->trace, GAMUT_OUTPUT, "%s is there already", folder)
-                 : trace_fail(command->trace, GAMUT_OUTPUT, "cannot make the folder %s: %s",
-                              folder, strerror(errno));
+                 : trace_fail(command->trace, GAMUT_OUTPUT, "cannot make the folder %s: %s", folder,
+                              strerror(errno));
     goto done;
   }
   TRY(write_files(command, folder, template_of[kind], &names));

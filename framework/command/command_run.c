@@ -89,9 +89,9 @@ static gamut_status run_scene(struct command *command, const struct run_argument
   char *folder = arguments->folder ? strdup(arguments->folder) : standard_folder(arguments->file);
   TRY(scene_from_arguments(command, arguments->file, &arguments->set, &scene));
   if (!scene->solver.descriptor) {
-    status = trace_fail(command->trace, GAMUT_SCENE,
-                        "%s has no solver: it is a card for other scenes, not a run",
-                        arguments->file);
+    status =
+        trace_fail(command->trace, GAMUT_SCENE,
+                   "%s has no solver: it is a card for other scenes, not a run", arguments->file);
     goto done;
   }
   progress = make_progress(scene);

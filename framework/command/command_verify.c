@@ -15,8 +15,8 @@ static gamut_status verify_nested(struct command *command, const struct descript
   FILE *file = open_memstream(&text, &size);
   if (!file)
     return trace_fail(command->trace, GAMUT_INTERNAL, "out of memory");
-  gamut_status status = conformance_run(command->registry, descriptor, command->units,
-                                        command->trace, file);
+  gamut_status status =
+      conformance_run(command->registry, descriptor, command->units, command->trace, file);
   fclose(file);
   printf("# Subtest: %s\n", descriptor->id);
   for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n"))

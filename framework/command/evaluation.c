@@ -71,7 +71,8 @@ void evaluation_free(struct evaluation *e)
   free(e->second);
 }
 
-/* ---- reading the inputs ------------------------------------------------------------------------ */
+/* ---- reading the inputs ------------------------------------------------------------------------
+ */
 
 gamut_status split_pairs(struct command *command, const char *option, const char *text,
                          gamut_status (*take)(void *, const char *name, const char *value),
@@ -180,7 +181,8 @@ double evaluation_input(const struct evaluation *e, size_t index, size_t point)
   return input->from + (input->to - input->from) * (double)k / (double)(input->count - 1);
 }
 
-/* ---- calling the kernel ------------------------------------------------------------------------ */
+/* ---- calling the kernel ------------------------------------------------------------------------
+ */
 
 static gamut_status count_points(struct evaluation *e, struct command *command)
 {
@@ -197,8 +199,8 @@ static gamut_status count_points(struct evaluation *e, struct command *command)
   return GAMUT_OK;
 }
 
-/* Everything a law depends on: the real parameters that were stated or have a default, and the density
- * where it reads that. What follows from others by a given set is no free parameter. */
+/* Everything a law depends on: the real parameters that were stated or have a default, and the
+ * density where it reads that. What follows from others by a given set is no free parameter. */
 static void list_bys(struct evaluation *e)
 {
   const struct descriptor *d = e->descriptor;
@@ -244,8 +246,8 @@ static bool argument_set(struct evaluation *e, const struct eval_by *by, double 
     return true;
   }
   struct trace *trace = trace_new();
-  gamut_status status = values_set(e->specimen.values, e->descriptor, (size_t)by->parameter, value,
-                                   trace);
+  gamut_status status =
+      values_set(e->specimen.values, e->descriptor, (size_t)by->parameter, value, trace);
   trace_free(trace);
   for (size_t i = 0; i < e->slots; i++)
     if (e->slot[i].kind == SLOT_PARAMETER) {
@@ -282,9 +284,8 @@ static double by_differences(struct evaluation *e, size_t k, size_t l, bool seco
 {
   double error, value;
   struct probe probe = {.e = e, .x = &e->by[k], .x0 = argument_value(e, &e->by[k])};
-  struct difference difference = {.value = probe_value,
-                                  .self = &probe,
-                                  .step_x = first_step(probe.x0)};
+  struct difference difference = {
+      .value = probe_value, .self = &probe, .step_x = first_step(probe.x0)};
   if (!second) {
     value = difference_first(&difference, &error);
     return isfinite(value) ? value : difference_sided(&difference, 1, &error);

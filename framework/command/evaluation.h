@@ -11,7 +11,7 @@
 struct eval_input {
   char name[64];
   const char *unit;
-  bool read;            /* the kernel reads it */
+  bool read; /* the kernel reads it */
   bool given;
   double from, to;
   size_t count;
@@ -28,13 +28,16 @@ struct evaluation {
   const struct descriptor *descriptor;
   struct specimen specimen;
   struct bench *bench, *probe; /* all points; one point for differences */
-  struct eval_input *input;   size_t inputs;
-  struct slot *slot;          size_t slots;
-  struct eval_by *by;         size_t bys;
-  const char *of;              /* what derivatives are taken of */
+  struct eval_input *input;
+  size_t inputs;
+  struct slot *slot;
+  size_t slots;
+  struct eval_by *by;
+  size_t bys;
+  const char *of; /* what derivatives are taken of */
   size_t points;
   bool derivatives;
-  double *first, *second;      /* [point * bys + k], [(point * bys + k) * bys + l] */
+  double *first, *second; /* [point * bys + k], [(point * bys + k) * bys + l] */
 };
 
 enum { EVAL_POINTS_MAX = 1000000 };

@@ -111,7 +111,8 @@ gamut_status evaluation_json(struct evaluation *e, FILE *file, struct trace *tra
   return GAMUT_OK;
 }
 
-/* ---- for people -------------------------------------------------------------------------------- */
+/* ---- for people --------------------------------------------------------------------------------
+ */
 
 static const char *shown_unit(const char *unit)
 {

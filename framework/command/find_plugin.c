@@ -32,10 +32,11 @@ static gamut_status unknown_plugin(struct command *command, const char *text)
     trace_fail(command->trace, GAMUT_PLUGIN, "no plugin '%s' is installed; did you mean '%s'?",
                text, near);
   else
-    trace_fail(command->trace, GAMUT_PLUGIN,
-               "no plugin '%s' is installed; 'gamut list' shows what is, 'gamut list --paths' where "
-               "was looked",
-               text);
+    trace_fail(
+        command->trace, GAMUT_PLUGIN,
+        "no plugin '%s' is installed; 'gamut list' shows what is, 'gamut list --paths' where "
+        "was looked",
+        text);
   free(id);
   free(name);
   return GAMUT_PLUGIN;

@@ -32,11 +32,12 @@ static const struct details {
     {"check", "Prints every mistake with its place. Opens no plugin and writes nothing.\n"
               "\n"
               "  --set path=value   overrides a value of the scene\n"},
-    {"explain", "Plans the run and says which effects are on or off and why, which tasks run in which\n"
-                "order, which fields are stored, and the bytes a point and in all. Runs nothing.\n"
-                "\n"
-                "  --set path=value   overrides a value of the scene\n"
-                "  --json             prints the plan as JSON\n"},
+    {"explain",
+     "Plans the run and says which effects are on or off and why, which tasks run in which\n"
+     "order, which fields are stored, and the bytes a point and in all. Runs nothing.\n"
+     "\n"
+     "  --set path=value   overrides a value of the scene\n"
+     "  --json             prints the plan as JSON\n"},
     {"eval",
      "PLUGIN is an eos or a strength, e.g. eos/linear.\n"
      "\n"
@@ -70,12 +71,11 @@ static const struct details {
              "  -o DIR             where the pictures go (default: DIR of the result)\n"},
 };
 
-static const char common[] =
-    "Common options:\n"
-    "  --plugin-path DIR  looks for plugins there first\n"
-    "  --no-user-plugins  does not look in the user's own plugin folder\n"
-    "  --help             this text; after a command: its own\n"
-    "  --version          the version\n";
+static const char common[] = "Common options:\n"
+                             "  --plugin-path DIR  looks for plugins there first\n"
+                             "  --no-user-plugins  does not look in the user's own plugin folder\n"
+                             "  --help             this text; after a command: its own\n"
+                             "  --version          the version\n";
 
 void help_all(FILE *out)
 {

@@ -123,7 +123,8 @@ static gamut_status dispatch(int argc, char **argv, struct trace *trace)
   return run_command(argc, argv, &common, trace);
 }
 
-/* Results that did not reach the disk or the pipe are no results. A reader that has gone is fine. */
+/* Results that did not reach the disk or the pipe are no results. A reader that has gone is fine.
+ */
 static gamut_status flush_output(struct trace *trace)
 {
   errno = 0;

@@ -1,5 +1,5 @@
-/* The files of a plugin skeleton. In names and texts @NAME@, @KIND@ and @UPPER@ (the name in capitals)
- * are filled in. */
+/* The files of a plugin skeleton. In names and texts @NAME@, @KIND@ and @UPPER@ (the name in
+ * capitals) are filled in. */
 #ifndef GAMUT_NEW_TEMPLATE_H
 #define GAMUT_NEW_TEMPLATE_H
 

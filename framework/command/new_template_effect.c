@@ -1,4 +1,4 @@
-/* The skeleton of an effect plugin. @NAME@ and the like are filled in by command_new. */
+/* The skeleton of an effect plugin. @NAME@ and its like are filled in. */
 #include "command/new_template.h"
 
 static const char descriptor[] =
@@ -37,7 +37,8 @@ static const char source[] =
     "GAMUT_EFFECT(@NAME@, .decline = decline, .drag = drag)\n";
 
 static const char known[] =
-    "# An effect has no known answers of its own: its kernels are checked on blocks of points. A scene\n"
+    "# An effect has no known answers of its own: its kernels are checked on blocks "
+    "of points. A scene\n"
     "# @NAME@.scene.yaml in this folder would be run as well.\n"
     "tests: []\n";
 

@@ -1,4 +1,4 @@
-/* The skeleton of an eos plugin. @NAME@ and the like are filled in by command_new. */
+/* The skeleton of an eos plugin. @NAME@ and its like are filled in. */
 #include "command/new_template.h"
 
 static const char descriptor[] =

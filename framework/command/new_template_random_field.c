@@ -1,4 +1,4 @@
-/* The skeleton of a random field plugin. @NAME@ and the like are filled in by command_new. */
+/* The skeleton of a random field plugin. @NAME@ and its like are filled in. */
 #include "command/new_template.h"
 
 static const char descriptor[] =
@@ -12,7 +12,8 @@ static const char descriptor[] =
 static const char source[] =
     "#include \"@NAME@.gamut.h\"\n"
     "\n"
-    "static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)\n"
+    "static gamut_status create(struct gamut_run *run, const struct gamut_values "
+    "*values, void **self)\n"
     "{\n"
     "  (void)run;\n"
     "  (void)values;\n"
@@ -25,8 +26,10 @@ static const char source[] =
     "  (void)self;\n"
     "}\n"
     "\n"
-    "static gamut_status sample(const void *self, const struct gamut_stream *stream, size_t count,\n"
-    "                           const double *const position[3], const int64_t *id, double *value)\n"
+    "static gamut_status sample(const void *self, const struct gamut_stream *stream, "
+    "size_t count,\n"
+    "                           const double *const position[3], const int64_t *id, "
+    "double *value)\n"
     "{\n"
     "  (void)self;\n"
     "  (void)position;\n"

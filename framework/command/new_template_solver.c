@@ -1,4 +1,4 @@
-/* The skeleton of a solver plugin. @NAME@ and the like are filled in by command_new. */
+/* The skeleton of a solver plugin. @NAME@ and its like are filled in. */
 #include "command/new_template.h"
 
 static const char descriptor[] =
@@ -32,7 +32,8 @@ static const char source[] =
     "  const struct state *s = self;\n"
     "  double step = gamut_time_step(s->run);\n"
     "  for (unsigned k = 0; k < 3; k++) {\n"
-    "    const double *x = gamut_begin(chunk, s->position, k), *v = gamut_begin(chunk, s->velocity, k);\n"
+    "    const double *x = gamut_begin(chunk, s->position, k), *v = "
+    "gamut_begin(chunk, s->velocity, k);\n"
     "    double *end = gamut_end(chunk, s->position, k);\n"
     "    GAMUT_EACH (i, chunk)\n"
     "      end[i] = x[i] + step * v[i];\n"
@@ -55,8 +56,10 @@ static const char source[] =
     "                                          {\"position\", GAMUT_WRITE},\n"
     "                                          {\"velocity\", GAMUT_READ_BEGIN},\n"
     "                                          {\"mass\", GAMUT_READ_BEGIN}};\n"
-    "  const struct gamut_task task = {.name = \"move\", .phase = \"move\", .extent = GAMUT_PER_CHUNK,\n"
-    "                                  .uses = uses, .use_count = 4, .essential = true, .run = move,\n"
+    "  const struct gamut_task task = {.name = \"move\", .phase = \"move\", .extent = "
+    "GAMUT_PER_CHUNK,\n"
+    "                                  .uses = uses, .use_count = 4, .essential = "
+    "true, .run = move,\n"
     "                                  .self = s};\n"
     "  gamut_status status = gamut_field_named(s->run, \"position\", &s->position);\n"
     "  if (status == GAMUT_OK)\n"
@@ -68,12 +71,14 @@ static const char source[] =
     "  if (status == GAMUT_OK)\n"
     "    status = gamut_add_task(s->run, &task);\n"
     "  if (status == GAMUT_OK)\n"
-    "    status = GAMUT_HOST(s->run)->ledger(s->run, \"energy\", \"kinetic\", \"J\", GAMUT_STORED, &s->kinetic);\n"
+    "    status = GAMUT_HOST(s->run)->ledger(s->run, \"energy\", \"kinetic\", \"J\", "
+    "GAMUT_STORED, &s->kinetic);\n"
     "  s->longest = gamut_real(values, \"step\");\n"
     "  return status;\n"
     "}\n"
     "\n"
-    "static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)\n"
+    "static gamut_status create(struct gamut_run *run, const struct gamut_values "
+    "*values, void **self)\n"
     "{\n"
     "  struct state *s = gamut_allocate(run, \"@NAME@\", sizeof *s);\n"
     "  if (!s)\n"
@@ -90,7 +95,8 @@ static const char source[] =
 
 static const char source_rest[] =
     "\n"
-    "static double *array(const struct state *s, size_t body, struct gamut_field field, unsigned k)\n"
+    "static double *array(const struct state *s, size_t body, struct gamut_field "
+    "field, unsigned k)\n"
     "{\n"
     "  return GAMUT_HOST(s->run)->stored(s->set[body], field, k);\n"
     "}\n"
@@ -104,7 +110,8 @@ static const char source_rest[] =
     "  uint32_t source[GAMUT_LANES] = {0};\n"
     "  double lower[3], upper[3], x[3], v[3], volume = 1;\n"
     "  if (!host->body_bounds(body, lower, upper))\n"
-    "    return gamut_fail(s->run, GAMUT_SCENE, \"body %s has no shape\", host->body_name(body));\n"
+    "    return gamut_fail(s->run, GAMUT_SCENE, \"body %s has no shape\", "
+    "host->body_name(body));\n"
     "  for (int k = 0; k < 3; k++) {\n"
     "    bool bounded = isfinite(lower[k]) && isfinite(upper[k]);\n"
     "    x[k] = bounded ? 0.5 * (lower[k] + upper[k]) : 0;\n"
@@ -167,7 +174,8 @@ static const char source_rest[] =
     "             .after = after, .measure = measure)\n";
 
 static const char known[] =
-    "# Solvers are checked on the scene @NAME@.scene.yaml: it must end, balance, and not depend on threads.\n"
+    "# Solvers are checked on the scene @NAME@.scene.yaml: it must end, balance, and "
+    "not depend on threads.\n"
     "tests: []\n";
 
 static const char scene[] =

@@ -1,4 +1,4 @@
-/* The skeleton of a strength plugin. @NAME@ and the like are filled in by command_new. */
+/* The skeleton of a strength plugin. @NAME@ and its like are filled in. */
 #include "command/new_template.h"
 
 static const char descriptor[] =
@@ -11,7 +11,8 @@ static const char descriptor[] =
     "parameters:\n"
     "  yield_stress: {symbol: Y, unit: Pa, physical: \"(0, inf)\", random: true,\n"
     "                 doc: flow stress at zero plastic strain}\n"
-    "  hardening_modulus: {symbol: H, unit: Pa, default: 0 Pa, physical: \"[0, inf)\", random: true,\n"
+    "  hardening_modulus: {symbol: H, unit: Pa, default: 0 Pa, physical: \"[0, inf)\", "
+    "random: true,\n"
     "                      doc: growth of the flow stress with plastic strain}\n"
     "inputs: [plastic_strain]\n"
     "outputs: [flow_stress, flow_stress_slope_plastic_strain]\n";
@@ -22,7 +23,8 @@ static const char source[] =
     "static void flow_stress(const struct @NAME@ *b)\n"
     "{\n"
     "  GAMUT_EACH (i, b) {\n"
-    "    b->flow_stress[i] = b->yield_stress[i] + b->hardening_modulus[i] * b->plastic_strain[i];\n"
+    "    b->flow_stress[i] = b->yield_stress[i] + b->hardening_modulus[i] * "
+    "b->plastic_strain[i];\n"
     "    b->flow_stress_slope_plastic_strain[i] = b->hardening_modulus[i];\n"
     "  }\n"
     "}\n"

@@ -28,8 +28,9 @@ struct option {
   void *target;
 };
 
-/* Reads the command's arguments. What is no option goes to `operand` (at least `least`, at most `most`
- * of them); "--" ends the options. On a mistake records GAMUT_USAGE with the command's usage. */
+/* Reads the command's arguments. What is no option goes to `operand` (at least `least`, at most
+ * `most` of them); "--" ends the options. On a mistake records GAMUT_USAGE with the command's
+ * usage. */
 gamut_status options_read(struct command *, const struct option *, size_t options,
                           const char **operand, size_t least, size_t most, size_t *operands);
 

@@ -63,7 +63,8 @@ void block_mark(struct block *block)
   memset(bench_status(block->bench), 0, BLOCK_ROOM * sizeof(int64_t));
 }
 
-/* ---- drawing points ---------------------------------------------------------------------------- */
+/* ---- drawing points ----------------------------------------------------------------------------
+ */
 
 static double draw_input(struct proof *proof, const char *name, size_t corner)
 {
@@ -95,7 +96,8 @@ static void draw_point(struct block *block, const struct specimen *specimen, siz
       block->array[s][i] = parameter_value(specimen, slot);
     else
       block->array[s][i] = draw_input(proof, slot_label(slot, label, sizeof label), corner);
-    /* A symmetric positive history such as a strain measure starts from what the plugin declares. */
+    /* A symmetric positive history such as a strain measure starts from what the plugin declares.
+     */
     if (slot->kind == SLOT_STATE_BEGIN && proof->descriptor->state[slot->index].components > 1)
       block->array[s][i] = proof->descriptor->state[slot->index].initial;
   }
@@ -121,7 +123,8 @@ void block_draw(struct block *block, size_t round)
       memcpy(block->kept[s], block->array[s], BLOCK_ROOM * sizeof(double));
 }
 
-/* ---- the checks -------------------------------------------------------------------------------- */
+/* ---- the checks --------------------------------------------------------------------------------
+ */
 
 static bool named(const char **list, size_t count, const char *name)
 {
@@ -180,7 +183,8 @@ static void record_free(struct record *record, size_t slots)
   free(record->output);
 }
 
-/* Points whose results differ in a bit: those of the record from `from` on against the block's first. */
+/* Points whose results differ in a bit: those of the record from `from` on against the block's
+ * first. */
 static size_t differing(const struct record *record, const struct block *block, size_t from,
                         size_t count)
 {
@@ -229,8 +233,8 @@ static void count_writes(const struct block *block, const struct work *work, siz
   }
 }
 
-static size_t unflagged(const struct block *block, const struct work *work,
-                        const int64_t *excuse, char *which, size_t size)
+static size_t unflagged(const struct block *block, const struct work *work, const int64_t *excuse,
+                        char *which, size_t size)
 {
   size_t bad = 0;
   for (size_t s = 0; s < block->proof->slots; s++)

@@ -11,8 +11,8 @@ struct checks {
   size_t count, failed;
 };
 
-/* Lines that begin so say what is under way; whoever reads the TAP stream takes them out, and names the
- * last one when the plugin's code crashed. */
+/* Lines that begin so say what is under way; whoever reads the TAP stream takes them out, and names
+ * the last one when the plugin's code crashed. */
 #define CHECK_UNDER_WAY '\001'
 
 /* Says what comes, in case it crashes. */

@@ -24,10 +24,10 @@ static void prove_descriptor(struct proof *proof)
   const struct descriptor *d = proof->descriptor;
   struct checks *checks = &proof->checks;
   char which[128] = "";
-  size_t missing = undocumented(d->parameter, d->parameters, which, sizeof which) +
-                   undocumented(d->material_parameter, d->material_parameters, which,
-                                sizeof which) +
-                   undocumented(d->body_parameter, d->body_parameters, which, sizeof which);
+  size_t missing =
+      undocumented(d->parameter, d->parameters, which, sizeof which) +
+      undocumented(d->material_parameter, d->material_parameters, which, sizeof which) +
+      undocumented(d->body_parameter, d->body_parameters, which, sizeof which);
   check_that(checks, d->summary && d->summary[0] && d->version && d->version[0],
              "the descriptor has a summary and a version");
   check_that(checks, d->sources > 0, "the descriptor names its source");
@@ -77,7 +77,9 @@ static void prove_refusals(struct proof *proof, const struct parameter *paramete
       fine = refused(proof, p, bad, &taken);
     }
     check_that(&proof->checks, fine, "%s outside its physical range is refused by name%s", p->name,
-               fine ? "" : taken ? " (it was taken)" : " (the message does not name it)");
+               fine    ? ""
+               : taken ? " (it was taken)"
+                       : " (the message does not name it)");
     if (!fine)
       check_say(&proof->checks, "tried %g", bad);
   }

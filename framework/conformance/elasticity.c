@@ -53,7 +53,8 @@ static void rotation(double angle, matrix r)
       r[3 * i + j] = (i == j ? c : 0) + (1 - c) * n[i] * n[j] + s * cross[3 * i + j];
 }
 
-/* ---- a point that follows a path --------------------------------------------------------------- */
+/* ---- a point that follows a path ---------------------------------------------------------------
+ */
 
 struct path {
   struct suite *suite;
@@ -139,8 +140,8 @@ static void path_stress(const struct path *path, matrix stress)
     stress[k] = *value_of(path, path->stress + (size_t)place[k]);
 }
 
-/* F at a share of the path: stretch, shear and volume change, well into plastic flow; back again after
- * the middle where `back`. */
+/* F at a share of the path: stretch, shear and volume change, well into plastic flow; back again
+ * after the middle where `back`. */
 static void deformation(double share, bool back, matrix f)
 {
   static const double slope[9] = {0.03, 0.02, -0.01, 0.005, -0.02, 0.015, 0.0, 0.01, -0.004};
@@ -149,7 +150,8 @@ static void deformation(double share, bool back, matrix f)
     f[k] = (k % 4 == 0) + s * slope[k] + (k == 1 ? 0.02 * s * s : 0);
 }
 
-/* Follows the path in n steps, seen in a frame turned by q and rotating by `turn` over its length. */
+/* Follows the path in n steps, seen in a frame turned by q and rotating by `turn` over its length.
+ */
 static void follow(struct path *path, size_t n, bool back, const matrix q, double turn)
 {
   path_reset(path);
@@ -197,7 +199,8 @@ static void turned(const matrix r, const matrix a, matrix out)
   multiply(r, t, out);
 }
 
-/* ---- the checks -------------------------------------------------------------------------------- */
+/* ---- the checks --------------------------------------------------------------------------------
+ */
 
 static void prove_rotations(struct path *path)
 {
@@ -210,7 +213,8 @@ static void prove_rotations(struct path *path)
   follow(path, 64, false, q, 0);
   path_stress(path, seen);
   turned(q, plain, due);
-  check_figure(checks, distance(due, seen), 1e-10, "the same path in a turned frame, stress relative");
+  check_figure(checks, distance(due, seen), 1e-10,
+               "the same path in a turned frame, stress relative");
   follow(path, 64, false, unity, 0);
   for (int i = 0; i < 100; i++) {
     rotation(0.06, q);

@@ -8,8 +8,8 @@ static void prove_sound_speed(struct proof *proof, struct block *block, kernel_f
 {
   size_t bad = 0, fine = 0, slot = slot_named(proof, SLOT_OUTPUT, "sound_speed");
   check_begin(&proof->checks, "sound speed");
-  if (!check_that(&proof->checks, slot != SIZE_MAX && slot_named(proof, SLOT_OUTPUT, "pressure") !=
-                                                          SIZE_MAX,
+  if (!check_that(&proof->checks,
+                  slot != SIZE_MAX && slot_named(proof, SLOT_OUTPUT, "pressure") != SIZE_MAX,
                   "pressure and sound_speed are among the outputs"))
     return;
   for (size_t round = 0; round < 3; round++) {

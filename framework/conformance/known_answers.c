@@ -4,12 +4,10 @@
  *     - name: on the Hugoniot
  *       source: where the number comes from
  *       parameters: {C0: 3940 m/s, ...}         bare numbers are SI
- *       at: {compression: 0.1, ...}             inputs; states at the beginning by their name; a list
- *                                               gives all components
- *       laws: {eos: {model: NAME, ...}, strength: {model: NAME, ...}}   elasticity: its callees
- *       expect: {pressure: 1.0e9, ...}          outputs; states at the end; null: not a number
- *       derivatives: {pressure: {C0: ...}}
- *       second_derivatives: {pressure: {C0: {S1: ...}}}
+ *       at: {compression: 0.1, ...}             inputs; states at the beginning by their name; a
+ * list gives all components laws: {eos: {model: NAME, ...}, strength: {model: NAME, ...}}
+ * elasticity: its callees expect: {pressure: 1.0e9, ...}          outputs; states at the end; null:
+ * not a number derivatives: {pressure: {C0: ...}} second_derivatives: {pressure: {C0: {S1: ...}}}
  *       status: message name                    where the law must flag the point
  *       tolerance: 1e-12                        relative; 1e-12 if not stated
  *       absolute: 0                             allowed besides that
@@ -60,8 +58,7 @@ static const struct slot *slot_called(const struct proof *proof, const char *nam
   for (size_t s = 0; s < proof->slots; s++) {
     const struct slot *slot = &proof->slot[s];
     char label[96], begin[112];
-    if (input ? !slot_is_input(slot)
-              : !slot_is_output(slot) && slot->kind != SLOT_INVERSE_OUTPUT)
+    if (input ? !slot_is_input(slot) : !slot_is_output(slot) && slot->kind != SLOT_INVERSE_OUTPUT)
       continue;
     slot_label(slot, label, sizeof label);
     snprintf(begin, sizeof begin, "%s_begin", name);
@@ -189,8 +186,8 @@ static void compare_derivatives(struct answer *a)
   for (size_t i = 0; second && !a->broken && i < second->children; i++)
     for (size_t k = 0; k < second->child[i]->children; k++) {
       const struct tree *node = second->child[i]->child[k];
-      compare(a, value[n + by_number(a, second->child[i]->key) * n + by_number(a, node->key)],
-              node, NULL, node->key);
+      compare(a, value[n + by_number(a, second->child[i]->key) * n + by_number(a, node->key)], node,
+              NULL, node->key);
     }
   free(value);
 }
@@ -205,8 +202,8 @@ static gamut_status make(struct answer *a, struct trace *trace)
   for (size_t i = 0; parameters && i < parameters->children; i++)
     TRY(settings_read(&settings, a->proof->descriptor, parameters->child[i]->key,
                       parameters->child[i]->text, "parameters", a->proof->units, trace));
-  TRY(specimen_values(&a->specimen, a->proof->descriptor, &settings, "parameters",
-                      a->proof->units, trace));
+  TRY(specimen_values(&a->specimen, a->proof->descriptor, &settings, "parameters", a->proof->units,
+                      trace));
   TRY(specimen_open(&a->specimen, a->proof->registry, 1, rho, trace));
   TRY(laws_new(&a->laws, a->proof, tree_get(a->test, "laws"), 1, rho, trace));
   TRY(bench_new(a->specimen.kernel, a->laws.eos.kernel, a->laws.strength.kernel, 1, trace,
@@ -219,8 +216,7 @@ done:
 static bool status_fits(struct answer *a, const char **got, const char **want)
 {
   const struct tree *node = tree_get(a->test, "status");
-  const struct message *message =
-      status_message(a->proof->descriptor, bench_status(a->bench)[0]);
+  const struct message *message = status_message(a->proof->descriptor, bench_status(a->bench)[0]);
   *want = node ? node->text : "ok";
   *got = message ? message->name : "ok";
   return strcmp(*got, *want) == 0;

@@ -21,8 +21,8 @@ static gamut_status standard_law(struct settings *settings, const struct descrip
 {
   if (kind == GAMUT_KIND_EOS)
     return settings_read(settings, law, "bulk_modulus", "140 GPa", "laws", units, trace);
-  gamut_status status = settings_read(settings, law, "yield_stress", "90 MPa", "laws", units,
-                                      trace);
+  gamut_status status =
+      settings_read(settings, law, "yield_stress", "90 MPa", "laws", units, trace);
   if (status == GAMUT_OK)
     status = settings_read(settings, law, "hardening_modulus", "300 MPa", "laws", units, trace);
   return status;
@@ -38,8 +38,7 @@ static gamut_status law_new(struct specimen *specimen, struct proof *proof, enum
   const char *name = model ? model->text : kind == GAMUT_KIND_EOS ? "linear" : "von_mises";
   if (model && strcmp(name, "absent") == 0)
     return GAMUT_OK;
-  const struct descriptor *law =
-      registry_expect(proof->registry, kind, name, NULL, "laws", trace);
+  const struct descriptor *law = registry_expect(proof->registry, kind, name, NULL, "laws", trace);
   if (!law)
     return GAMUT_PLUGIN;
   if (node)

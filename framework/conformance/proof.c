@@ -33,7 +33,8 @@ double draw_between(struct proof *proof, double lower, double upper)
   return lower + u * (upper - lower);
 }
 
-/* ---- parameters -------------------------------------------------------------------------------- */
+/* ---- parameters --------------------------------------------------------------------------------
+ */
 
 /* What is usual for a solid, by the unit. */
 static double usual(const struct parameter *p)
@@ -67,8 +68,8 @@ static bool accepted(const struct descriptor *descriptor, const struct settings 
 {
   struct trace *trace = trace_new();
   struct specimen specimen;
-  bool fine = specimen_values(&specimen, descriptor, settings, "parameters", units, trace) ==
-              GAMUT_OK;
+  bool fine =
+      specimen_values(&specimen, descriptor, settings, "parameters", units, trace) == GAMUT_OK;
   if (!fine && why) {
     char *text = trace_text(trace);
     snprintf(why, size, "%s", text ? text : "");
@@ -234,7 +235,8 @@ bool draw_settings(struct proof *proof, size_t corner, struct specimen *specimen
   return false;
 }
 
-/* ---- states ------------------------------------------------------------------------------------ */
+/* ---- states ------------------------------------------------------------------------------------
+ */
 
 struct span span_of(const char *name)
 {

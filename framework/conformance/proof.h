@@ -14,11 +14,11 @@ struct proof {
   const struct descriptor *descriptor;
   const struct units *units;
   struct checks checks;
-  struct tree *known;      /* NAME.test.yaml, or null */
-  struct settings base;    /* parameters that the plugin accepts */
+  struct tree *known;   /* NAME.test.yaml, or null */
+  struct settings base; /* parameters that the plugin accepts */
   struct slot *slot;
   size_t slots;
-  uint64_t seed;           /* of the draws: fixed, so that a failure can be seen again */
+  uint64_t seed; /* of the draws: fixed, so that a failure can be seen again */
 };
 
 /* A trace's messages as text to be freed. */
@@ -28,14 +28,14 @@ double draw(struct proof *);
 /* A number between the ends; over a wide positive range by its logarithm. */
 double draw_between(struct proof *, double lower, double upper);
 
-/* Parameters that a plugin accepts: those of its first known answer, else its defaults and the middle of
- * its ranges. False if none was found; `why` gets the refusal. */
+/* Parameters that a plugin accepts: those of its first known answer, else its defaults and the
+ * middle of its ranges. False if none was found; `why` gets the refusal. */
 bool find_base(const struct descriptor *, const struct tree *known, const struct units *,
                struct settings *, char *why, size_t size);
 /* The range that draws of a parameter come from: its fit, else around the base value. */
 void draw_range(const struct parameter *, double base, double *lower, double *upper);
-/* Draws every real parameter; corner 0 draws inside, 1 takes all low ends, 2 all high ends, 3 and more
- * one parameter at an end. Refused draws are drawn again. False if no draw was accepted. */
+/* Draws every real parameter; corner 0 draws inside, 1 takes all low ends, 2 all high ends, 3 and
+ * more one parameter at an end. Refused draws are drawn again. False if no draw was accepted. */
 bool draw_settings(struct proof *, size_t corner, struct specimen *);
 
 /* Where an input or state of that name is tried. */
@@ -57,10 +57,12 @@ void prove_estimator(struct proof *);
 void prove_random_field(struct proof *);
 void prove_solver(struct proof *);
 
-/* Runs the scene NAME.scene.yaml of the plugin's folder: ends, balances, same bits on 1, 2, 3 threads. */
+/* Runs the scene NAME.scene.yaml of the plugin's folder: ends, balances, same bits on 1, 2, 3
+ * threads. */
 void prove_scene(struct proof *);
 
-/* ---- kernels ----------------------------------------------------------------------------------- */
+/* ---- kernels -----------------------------------------------------------------------------------
+ */
 
 /* Blocks of points with guard bands: arrays are BLOCK_ROOM long, calls use at most BLOCK_POINTS. */
 enum { BLOCK_POINTS = 256, BLOCK_ROOM = BLOCK_POINTS + 24 };
@@ -69,8 +71,8 @@ enum { BLOCK_POINTS = 256, BLOCK_ROOM = BLOCK_POINTS + 24 };
 struct block {
   struct proof *proof;
   struct bench *bench;
-  double **array;      /* one a slot; null for laws and derivatives that are not offered */
-  double **kept;       /* copies of the inputs */
+  double **array; /* one a slot; null for laws and derivatives that are not offered */
+  double **kept;  /* copies of the inputs */
 };
 bool block_new(struct block *, struct proof *, struct bench *);
 void block_free(struct block *);

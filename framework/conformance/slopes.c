@@ -27,8 +27,8 @@ static double moved_value(void *self, double x, double y)
   return status_severity(*status) >= GAMUT_WARN ? NAN : probe->result[0];
 }
 
-/* Error of a slope against the nearest of the central and the one-sided differences: at a kink the law
- * may give either side's. */
+/* Error of a slope against the nearest of the central and the one-sided differences: at a kink the
+ * law may give either side's. */
 static double slope_error(const struct difference *d, double slope, double scale)
 {
   double error, least = INFINITY;
@@ -117,7 +117,8 @@ void prove_slopes(struct proof *proof, struct block *block, kernel_function func
   }
 }
 
-/* ---- derivatives by parameters ----------------------------------------------------------------- */
+/* ---- derivatives by parameters -----------------------------------------------------------------
+ */
 
 static double at_of(const struct proof *proof, const struct block *block, size_t by, size_t point)
 {

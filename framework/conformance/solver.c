@@ -99,9 +99,9 @@ void prove_scene(struct proof *proof)
   if (ended) {
     size_t different = 0;
     for (int k = 1; k < 3; k++)
-      different += outcome[k].count != outcome[0].count ||
-                   memcmp(outcome[k].value, outcome[0].value,
-                          outcome[0].count * sizeof(double)) != 0;
+      different +=
+          outcome[k].count != outcome[0].count ||
+          memcmp(outcome[k].value, outcome[0].value, outcome[0].count * sizeof(double)) != 0;
     check_figure(&proof->checks, outcome[0].worst, 1e-10, "residual of the ledger, relative%s",
                  outcome[0].account);
     check_figure(&proof->checks, (double)different, 0,

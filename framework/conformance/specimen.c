@@ -80,9 +80,8 @@ static gamut_status unknown_parameter(const struct descriptor *descriptor, const
   if (near)
     return trace_fail(trace, GAMUT_USAGE, "%s: %s has no parameter '%s'; did you mean '%s'?", what,
                       descriptor->id, name, near);
-  return trace_fail(trace, GAMUT_USAGE,
-                    "%s: %s has no parameter '%s'; 'gamut show %s' lists them", what,
-                    descriptor->id, name, descriptor->id);
+  return trace_fail(trace, GAMUT_USAGE, "%s: %s has no parameter '%s'; 'gamut show %s' lists them",
+                    what, descriptor->id, name, descriptor->id);
 }
 
 static gamut_status read_number(struct settings *settings, const struct parameter *parameter,
@@ -198,8 +197,8 @@ gamut_status specimen_open(struct specimen *specimen, struct registry *registry,
   specimen->arena = arena_new();
   if (!specimen->arena)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
-  return kernel_new(&specimen->instance, registry, specimen->arena, count, specimen->extra, density, trace,
-                    &specimen->kernel);
+  return kernel_new(&specimen->instance, registry, specimen->arena, count, specimen->extra, density,
+                    trace, &specimen->kernel);
 }
 
 void specimen_close(struct specimen *specimen)

@@ -1,4 +1,5 @@
-/* One plugin with values, made ready to be called alone: what `gamut eval` and the checks stand on. */
+/* One plugin with values, made ready to be called alone: what `gamut eval` and the checks stand on.
+ */
 #ifndef GAMUT_SPECIMEN_H
 #define GAMUT_SPECIMEN_H
 
@@ -21,8 +22,8 @@ void settings_free(struct settings *);
 void settings_put(struct settings *, const char *name, const char *text);
 /* Puts a number in the SI unit of the parameter. */
 void settings_number(struct settings *, const struct parameter *, double si);
-/* Reads what a person wrote: with a unit, or bare and then SI. The parameter is named by its name or
- * its symbol. `what` stands for the source in messages ("--param"). */
+/* Reads what a person wrote: with a unit, or bare and then SI. The parameter is named by its name
+ * or its symbol. `what` stands for the source in messages ("--param"). */
 gamut_status settings_read(struct settings *, const struct descriptor *, const char *name,
                            const char *text, const char *what, const struct units *,
                            struct trace *);
@@ -33,9 +34,9 @@ const struct parameter *specimen_parameter(const struct descriptor *, const char
 
 struct specimen {
   const struct descriptor *descriptor;
-  struct tree *tree;     /* what the values were read from */
-  struct values *values; /* of its parameters */
-  struct values *extra;  /* of its material parameters; null if it has none */
+  struct tree *tree;        /* what the values were read from */
+  struct values *values;    /* of its parameters */
+  struct values *extra;     /* of its material parameters; null if it has none */
   struct instance instance; /* the kernel keeps it: a specimen that was opened stays where it is */
   struct arena *arena;
   struct kernel *kernel; /* null until specimen_open */

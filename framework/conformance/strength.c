@@ -1,4 +1,5 @@
-/* strength: a flow stress that is never negative, its slopes, and the inverse where there is one. */
+/* strength: a flow stress that is never negative, its slopes, and the inverse where there is one.
+ */
 #include <math.h>
 #include <string.h>
 

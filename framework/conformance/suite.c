@@ -71,7 +71,8 @@ void suite_derivatives(struct suite *suite, size_t operation)
   prove_derivatives(proof, &suite->block, kernel_operation(suite->specimen.kernel, 0));
 }
 
-/* ---- variants ---------------------------------------------------------------------------------- */
+/* ---- variants ----------------------------------------------------------------------------------
+ */
 
 /* The parameters of a point as the condition's variables; NaN for what kernels do not see. */
 static double *point_parameters(const struct suite *suite, size_t point, double *value)
@@ -140,8 +141,8 @@ void suite_variants(struct suite *suite)
   const struct descriptor *d = suite->proof->descriptor;
   for (size_t v = 0; v < d->variants; v++) {
     size_t tried = 0;
-    const struct work work = {.function = kernel_named(suite->specimen.kernel,
-                                                       d->variant[v].kernel),
+    const struct work work = {.function =
+                                  kernel_named(suite->specimen.kernel, d->variant[v].kernel),
                               .label = d->variant[v].kernel};
     check_begin(&suite->proof->checks, "variant %s", d->variant[v].kernel);
     if (!work.function) {

@@ -1,0 +1,66 @@
+"""gamut new: the skeleton of every kind builds out of tree without a warning, and passes verify."""
+import os
+import subprocess
+import tempfile
+
+from tap import GAMUT, ROOT, done, gamut, report
+
+KINDS = ["eos", "strength", "elasticity", "effect", "random_field", "estimator", "solver"]
+SCENE = """gamut: 1
+solver: {model: material_driver, end: 1 ms, steps: 20, control: {xy: {velocity_gradient: 100 1/s}}}
+materials:
+  metal: {density: 8000 kg/m3, eos: {model: linear, bulk_modulus: 140 GPa},
+          strength: {model: my_strength, yield_stress: 90 MPa, hardening_modulus: 300 MPa},
+          elasticity: {model: hypoelastic, shear_modulus: 48 GPa}}
+bodies:
+  sample: {material: metal}
+quantities:
+  strain: {measure: plastic_strain, body: sample, reduce: at end}
+"""
+
+
+def make(folder):
+    compiler = os.environ.get("CC", "cc")
+    return subprocess.run(["make", f"GAMUT={GAMUT}", f"CC={compiler}",
+                           f"CFLAGS=-I{ROOT}/framework/include -Werror"], cwd=folder, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+
+def skeleton(kind, scratch):
+    name = "my_" + kind
+    folder = os.path.join(scratch, kind, name)
+    os.mkdir(os.path.join(scratch, kind))
+    answer = gamut("new", f"{kind}/{name}", "-o", folder, cwd=scratch)
+    if not report(answer.code == 0 and name in answer.out, f"new {kind}/{name}", answer):
+        return
+    built = make(folder)
+    if not report(built.returncode == 0, f"{name} builds without a warning"):
+        print("# " + built.stdout.replace("\n", "\n# "))
+        return
+    answer = gamut("verify", folder)
+    report(answer.code == 0 and answer.out.count("\nok ") >= 8, f"{name} passes verify", answer)
+    again = gamut("new", f"{kind}/{name}", "-o", folder, cwd=scratch)
+    report(again.code == 7 and "is there already" in again.said, f"{name} is not overwritten",
+           again)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as scratch:
+        os.chmod(scratch, 0o755)
+        for kind in KINDS:
+            skeleton(kind, scratch)
+        scene = os.path.join(scratch, "scene.yaml")
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(SCENE)
+        answer = gamut("--plugin-path", scratch, "run", scene, "--json", cwd=scratch)
+        summary = answer.json() or {}
+        report(answer.code == 0 and summary.get("quantities", {}).get("strain", {}).get("value", 0)
+               > 0, "a new hardening law runs in the material driver", answer)
+        answer = gamut("--plugin-path", scratch, "eval", "strength/my_strength", "--param",
+                       "yield_stress=90 MPa", "--at", "plastic_strain=0.1", "--json")
+        report(answer.code == 0 and answer.json() is not None, "and in eval", answer)
+    done()
+
+
+if __name__ == "__main__":
+    main()
