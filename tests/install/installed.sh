@@ -1,5 +1,5 @@
-# What `make installcheck` asks of an installed gamut: it finds its plugins, and a stranger's plugin of
-# each kind, written by `gamut new`, builds with nothing but pkg-config and passes `gamut verify`.
+# What `make installcheck` asks of an installed gamut: it finds its plugins, and a stranger's plugin
+# of each kind, written by `gamut new`, builds with nothing but pkg-config and passes `verify`.
 set -u
 number=0
 failures=0
