@@ -68,5 +68,6 @@ try 'an installed scene is sound' "$GAMUT" check "$pkgdatadir/inputs/taylor_bar.
 for kind in eos strength elasticity effect random_field estimator solver; do
   try "a new $kind plugin builds and passes" new_plugin "$kind"
 done
+try 'the plugin guide can be followed' "${PYTHON:-python3}" "${0%/*}/../guide/follow.py"
 echo "1..$number"
 exit "$((failures > 0))"
