@@ -54,6 +54,18 @@ struct balance {
   double stored, start, supplied, lost, scale;
 };
 
+/* Accounts of one unit share a scale: a momentum that is zero by symmetry is judged by the others. */
+static double scale_of(const struct gamut_run *run, const char *unit)
+{
+  double scale = 0.0;
+  for (size_t i = 0; i < run->lines; i++) {
+    const struct ledger_line *line = &run->ledger[i];
+    if (strcmp(line->unit, unit) == 0)
+      scale = fmax(scale, fmax(fabs(line->value), fabs(line->start)));
+  }
+  return scale;
+}
+
 static struct balance balance_of(const struct gamut_run *run, const char *account)
 {
   struct balance b = {0};
@@ -61,7 +73,7 @@ static struct balance balance_of(const struct gamut_run *run, const char *accoun
     const struct ledger_line *line = &run->ledger[i];
     if (strcmp(line->account, account) != 0)
       continue;
-    b.scale = fmax(b.scale, fmax(fabs(line->value), fabs(line->start)));
+    b.scale = scale_of(run, line->unit);
     if (line->role == GAMUT_STORED) {
       b.stored += line->value;
       b.start += line->start;
@@ -92,7 +104,7 @@ gamut_status ledger_check(struct gamut_run *run)
   read_lines(run);
   struct balance b = balance_of(run, "energy");
   double created = b.stored - b.start - b.supplied;
-  double scale = fmax(fabs(b.start) + fabs(b.supplied), 0.0);
+  double scale = fabs(b.start) + fabs(b.supplied);
   if (!(created > energy_tolerance * scale && scale > 0.0) && isfinite(b.stored))
     return GAMUT_OK;
   return trace_fail(run->trace, GAMUT_NUMERICS,

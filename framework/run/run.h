@@ -57,7 +57,7 @@ struct ledger_line {
   char *account, *name, *unit; enum gamut_ledger_role role; double value, start;
 };
 const struct ledger_line *run_ledger(const struct gamut_run *, size_t *count);
-/* Residual of an account now, and its scale (the largest of its parts). */
+/* Residual of an account now, and its scale: the largest figure of any account of that unit. */
 double run_ledger_residual(const struct gamut_run *, const char *account, double *scale);
 
 #endif
