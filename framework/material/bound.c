@@ -14,6 +14,7 @@ struct seat {
   double *scratch;
   double *zero, *sink;
   struct tally tally[ROLES];
+  double step_factor; /* smallest asked for since it was last taken */
 };
 
 struct bound_material {
@@ -26,6 +27,7 @@ struct bound_material {
   size_t threads, chunk;
   struct arena *arena;
   size_t temperature, plastic_strain; /* components that fill a law's arguments; SIZE_MAX: none */
+  size_t step_factor;                 /* component, where the elasticity gives one */
 };
 
 /* Arguments of a law are set by its caller; only other inputs come from fields. */
@@ -155,6 +157,7 @@ static gamut_status make_seats(struct bound_material *bound, struct trace *trace
         good = law_new(bound->kernel[role], bound->arena, bound->chunk,
                        &bound->seat[t].law[role]) == GAMUT_OK;
     good = good && furnish(bound, &bound->seat[t]) == GAMUT_OK;
+    bound->seat[t].step_factor = INFINITY;
   }
   return good ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
 }
@@ -202,6 +205,7 @@ gamut_status material_new(const struct material *material, struct registry *regi
   TRY(check_laws(bound, trace));
   bound->temperature = component_or_none(fields, "temperature");
   bound->plastic_strain = component_or_none(fields, "plastic_strain");
+  bound->step_factor = component_or_none(fields, "step_factor");
   TRY(make_seats(bound, trace));
 done:
   if (status != GAMUT_OK) {
@@ -282,6 +286,21 @@ void material_tally(struct bound_material *bound, const struct gamut_chunk *chun
   for (int role = STRENGTH; role < ROLES; role++)
     if (seat->law[role])
       tally_block(&seat->tally[role], seat->law[role]->image->status, chunk);
+  const double *factor =
+      bound->step_factor != SIZE_MAX ? chunk->end[bound->step_factor] : NULL;
+  for (size_t i = 0; factor && i < chunk->count; i++)
+    if (chunk->set->id[chunk->slot + i] >= 0)
+      seat->step_factor = fmin(seat->step_factor, factor[i]);
+}
+
+double material_step_factor(struct bound_material *bound)
+{
+  double factor = INFINITY;
+  for (size_t t = 0; t < bound->threads; t++) {
+    factor = fmin(factor, bound->seat[t].step_factor);
+    bound->seat[t].step_factor = INFINITY;
+  }
+  return factor;
 }
 
 /* The end of every state is its beginning until the kernel says otherwise. */

@@ -68,6 +68,9 @@ const struct gamut_use *material_uses(const struct bound_material *, size_t *cou
 void material_update(struct bound_material *, const struct gamut_chunk *);
 /* Counts what the last update of this chunk flagged. Once a step and chunk. */
 void material_tally(struct bound_material *, const struct gamut_chunk *);
+/* The smallest `step_factor` that a point's elasticity gave since the last call: the next step may be at
+ * most so many times this one. Infinity where none is given. */
+double material_step_factor(struct bound_material *);
 /* Fills temperature and energy of a set's points from its body; energy from pressure where the body
  * gives that (Newton on the eos at zero compression). */
 gamut_status material_initial(struct bound_material *, struct point_set *,

@@ -39,8 +39,13 @@ done:
 static gamut_status choose_step(struct gamut_run *run, double *step)
 {
   gamut_status status;
-  double left = run->end - run->time;
+  double left = run->end - run->time, factor = INFINITY;
+  for (size_t m = 0; m < run->scene->materials; m++)
+    if (run->material[m])
+      factor = fmin(factor, material_step_factor(run->material[m]));
   *step = run->end > 0.0 ? left : INFINITY;
+  if (run->steps > 0)
+    *step = fmin(*step, factor * run->step);
   TRY(run->solver->next(run->solver_self, step));
   /* A sliver of a last step would be all rounding. */
   if (run->end > 0.0 && *step > 0.0 && left - *step < 1e-9 * *step)
