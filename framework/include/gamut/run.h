@@ -246,6 +246,30 @@ struct gamut_host {
   /* Exact volume of the body's shape in a space of so many axes (per unit of those it lacks), or of the
    * shape revolved about y. 0 where the body has no shape. */
   double (*body_volume)(const struct gamut_body *, unsigned dimension, bool revolved);
+
+  /* A law of the body's material ("strength" or "eos") with arrays for `count` points. For solvers
+   * whose descriptor lists `laws`. In create or start; owned by the run. */
+  gamut_status (*law)(struct gamut_run *, const struct gamut_body *, const char *kind, size_t count,
+                      struct gamut_law **law);
+  /* Array of a parameter, input or output by name ("flow_stress_given"); null where the law has none.
+   * Parameters hold the scene's values, and may be written point by point. */
+  double *(*law_array)(struct gamut_law *, const char *name);
+  /* Calls an operation ("flow_stress", "inverse", "pressure") on the first `count` points; false where
+   * the law does not offer it. *worst (may be null) is the worst status word of these points. Any
+   * thread, but one at a time for the same law. */
+  bool (*law_call)(struct gamut_law *, const char *operation, size_t count, int64_t *worst);
+  /* The text of a status word of the law. */
+  const char *(*law_message)(const struct gamut_law *, int64_t word);
+
+  /* The run's stream for a name, of the study's seed and this realisation. */
+  struct gamut_stream (*stream)(const struct gamut_run *, const char *name);
+  uint64_t (*realisation)(const struct gamut_run *);
+  /* Values of the random field that the parameter `path` (type plugin, kind random_field) names, in
+   * this realisation, at `count` points with position[3][count] and id; `name` names its stream.
+   * *given is false, and nothing is written, where the scene names no field there. */
+  gamut_status (*sample)(struct gamut_run *, const struct gamut_values *, const char *path,
+                         const char *name, size_t count, const double *const position[3],
+                         const int64_t *id, double *value, bool *given);
 };
 
 /* Every run begins with its host; the rest is the core's. */
