@@ -1,0 +1,297 @@
+"""Writes docs/reference.md from what gamut says of itself.
+
+    python3 docs/make_reference.py build/gamut > docs/reference.md
+
+Keys of plugins come from `gamut show --json`. The keys around them are described below, and checked
+against `gamut schema`: one that is missing here, or no longer there, ends the script.
+"""
+
+import json
+import os
+import subprocess
+import sys
+
+KINDS = (("solver", "Solvers"), ("eos", "Equations of state"), ("strength", "Strength"),
+         ("elasticity", "Elasticity"), ("effect", "Effects"), ("random_field", "Random fields"),
+         ("estimator", "Estimators"))
+
+# What the schema's keys mean, by section. A section's place in the schema, then rows.
+FRAME = (
+    ("The file", (), (
+        ("gamut", "1", "Format of the scene. Required."),
+        ("title", "text", "For people, pictures and results."),
+        ("include", "list of files", "Merged below this file, which overrides them. Looked for "
+         "beside this file, then in the folders of inputs above it, then in the installed one."),
+        ("solver", "mapping", "`model` names the solver, the other keys are its own."),
+        ("materials", "mapping of names", "Materials."),
+        ("bodies", "mapping of names", "Bodies."),
+        ("effects", "mapping of names", "Effects that this scene calls for."),
+        ("quantities", "mapping of names", "What the scene wants to know."),
+        ("outputs", "mapping", "Frames of fields."),
+        ("uncertainty", "mapping", "Kept for studies; a run takes the means."))),
+    ("A material", ("materials", "*"), (
+        ("density", "kg/m3", "Density at zero compression. Required."),
+        ("eos", "plugin", "Pressure. `model` names it."),
+        ("strength", "plugin", "Flow stress. Absent: elastic without end."),
+        ("elasticity", "plugin", "Stress update; `hypoelastic` unless stated."),
+        ("source", "text or list", "Where the numbers come from."))),
+    ("A body", ("bodies", "*"), (
+        ("material", "name", "One of the materials. Required."),
+        ("shape", "mapping", "One of the shapes below."),
+        ("velocity", "m/s, by component", "Numbers with units, or text with arithmetic in `x`, "
+         "`y`, `z` (metres) that gives m/s. As many as the geometry has axes. Zero unless stated."),
+        ("temperature", "K", "At the start; 298 K unless stated."),
+        ("pressure", "Pa", "At the start; 0 unless stated."),
+        ("energy", "J/m3", "At the start, per reference volume, in place of pressure."))),
+    ("Shape: box", ("bodies", "*", "shape", "box"), (
+        ("min", "m, by component", "Lowest corner."),
+        ("max", "m, by component", "Highest corner."),
+        ("size", "m, by component", "In place of `min` and `max`."),
+        ("centre", "m, by component", "With `size`; the origin unless stated."))),
+    ("Shape: cylinder", ("bodies", "*", "shape", "cylinder"), (
+        ("radius", "m", "Required."),
+        ("length", "m", "From the base along the axis."),
+        ("axis", "x, y or z", "y unless stated; in plane strain z, without end."),
+        ("base", "m, by component", "Centre of the base; the origin unless stated."))),
+    ("Shape: sphere", ("bodies", "*", "shape", "sphere"), (
+        ("radius", "m", "Required."),
+        ("centre", "m, by component", "The origin unless stated."))),
+    ("A quantity", ("quantities", "*"), (
+        ("measure", "name", "A measure of the solver, the elasticity or an effect, or a field's "
+         "component such as `velocity_y`. Required. Arguments of the measure are further keys."),
+        ("effect", "name", "Which effect, where several offer the measure."),
+        ("body", "name", "Of which body, where there are several."),
+        ("at", "mapping", "For measures of a point: which."),
+        ("reduce", "see below", "One number out of the history. Absent: the history."),
+        ("every", "s", "Time between samples; about 500 samples unless stated."))),
+    ("A quantity's point, `at`", ("quantities", "*", "at"), (
+        ("body", "name", "Where there are several."),
+        ("point", "m, by component", "The point."),
+        ("follow", "material or space", "`material` (as it is unless stated): the point of the "
+         "body that is nearest at the start. `space`: what is there."))),
+    ("Outputs", ("outputs",), (
+        ("every", "s", "Time between frames."),
+        ("frames", "whole number", "How many frames, in place of `every`."),
+        ("fields", "list of names", "Fields and measures of points to write."))),
+    ("A random number", ("$defs", "random"), (
+        ("mean", "as the parameter", "Mean."),
+        ("cv", "1", "Coefficient of variation: standard deviation over mean."),
+        ("sd", "as the parameter", "Standard deviation, in place of `cv`."),
+        ("distribution", "name", "normal (unless stated), lognormal, uniform, weibull, gamma, "
+         "beta, triangular."),
+        ("lower", "as the parameter", "Of uniform, beta, triangular."),
+        ("upper", "as the parameter", "Of uniform, beta, triangular."),
+        ("truncate", "true or [lower, upper]", "Cuts the distribution off: at the physical range, "
+         "or at the given ends."))),
+)
+
+REDUCTIONS = (
+    ("`at end`, `at 12 us`", "The value then; between samples on a straight line."),
+    ("`max`, `min`, `mean`", "Over the whole run."),
+    ("`{max: [t0, t1]}`, `{min: ...}`, `{mean: ...}`", "Over a window."),
+    ("`{slope: [t0, t1]}`", "Slope of the straight line that fits best, per second."),
+    ("`{time_of: VALUE}`", "When the value is first crossed."),
+    ("`time_of_max`, `{time_of_max: [t0, t1]}`", "When the largest value is taken."),
+)
+
+
+def ask(gamut, *arguments):
+    shell = {k: v for k, v in os.environ.items() if k != "GAMUT_PLUGIN_PATH"}
+    return json.loads(subprocess.run([gamut, *arguments, "--no-user-plugins"], env=shell,
+                                     check=True, stdout=subprocess.PIPE, text=True).stdout)
+
+
+def schema_keys(schema, place):
+    """Keys of the mapping at a place of the schema."""
+    node = schema["$defs"]["random"] if place == ("$defs", "random") else schema
+    for step in () if place == ("$defs", "random") else place:
+        node = node["additionalProperties"] if step == "*" else node["properties"][step]
+    return set(node["properties"])
+
+
+def check_frame(schema, plugins):
+    added = {k for p in plugins for part in ("material_parameters", "body_parameters")
+             for k in p[part]}
+    added |= {k for p in plugins for m in p["measures"].values() for k in m.get("arguments", {})}
+    for title, place, rows in FRAME:
+        known, said = schema_keys(schema, place), {row[0] for row in rows}
+        if known - said - added or said - known:
+            sys.exit(f"{title}: missing here {sorted(known - said - added)}, "
+                     f"not in the schema {sorted(said - known)}")
+
+
+def cell(text):
+    return " ".join(str(text).split()).replace("|", "\\|")
+
+
+def table(head, rows):
+    print("| " + " | ".join(head) + " |")
+    print("|" + "---|" * len(head))
+    for row in rows:
+        print("| " + " | ".join(cell(c) for c in row) + " |")
+    print()
+
+
+def number(value):
+    return f"{value:.6g}"
+
+
+def range_of(parameter):
+    limits = parameter.get("physical")
+    if not limits:
+        return ""
+    low, high = limits["lower"], limits["upper"]
+    parts = []
+    if low is not None:
+        parts.append(("above " if limits["lower_open"] else "at least ") + number(low))
+    if high is not None:
+        parts.append(("below " if limits["upper_open"] else "at most ") + number(high))
+    return ", ".join(parts)
+
+
+def size_of(parameter):
+    low, high = parameter["size"]
+    return str(low) if low == high else f"{low} to {high}"
+
+
+def sort_of(parameter):
+    kind, unit = parameter["type"], parameter.get("unit", "1")
+    if kind == "real":
+        return unit
+    if kind == "choice":
+        return " or ".join(f"`{c}`" for c in parameter["choices"])
+    if kind == "vector":
+        return f"{size_of(parameter)} numbers" + ("" if unit == "1" else f" in {unit}")
+    if kind == "table":
+        return "table of " + ", ".join(f"{k} ({u})" for k, u in parameter["columns"].items())
+    return {"integer": "whole number", "group": "mapping", "body": "name of a body"}.get(kind, kind)
+
+
+def need_of(parameter, given):
+    if "default" in parameter:
+        return f"`{parameter['default']}`"
+    if given:
+        return "one set"
+    return "-" if parameter["optional"] else "required"
+
+
+def parameter_rows(parameters, given=(), prefix=""):
+    for name, p in parameters.items():
+        yield (f"`{prefix}{name}`", sort_of(p), need_of(p, name in given), range_of(p),
+               p.get("doc", "") + (" (may be random)" if p["random"] else ""))
+        if p["type"] == "group":
+            yield from parameter_rows(p["members"], (), f"{prefix}{name}.")
+
+
+def family(row):
+    """What rows share that differ only in the name of a component, and that name."""
+    path = row[0].strip("`").split(".")
+    if len(path) == 3 or (len(path) == 2 and row[1] == "mapping"):
+        return (path[0], *path[2:], row[1:]), path[1]
+    return row, None
+
+
+def without_repeats(rows):
+    """Rows that differ only in the name of a component are told once."""
+    told = {}
+    for row in rows:
+        key, name = family(row)
+        told.setdefault(key, []).append((name, row))
+    for same in told.values():
+        row = same[0][1]
+        if len(same) > 1:
+            path = row[0].strip("`").split(".")
+            path[1] = "*"
+            names = ", ".join(name for name, _ in same)
+            row = (f"`{'.'.join(path)}`", *row[1:4], f"{row[4]} (for {names})")
+        yield row
+
+
+def parameters(title, entries, given=()):
+    if entries:
+        if title:
+            print(f"{title}:\n")
+        table(("key", "value", "default", "range (SI)", "meaning"),
+              without_repeats(parameter_rows(entries, given)))
+
+
+def argument_text(measure):
+    return ", ".join(f"`{k}`: {sort_of(p)}" + ("" if "default" not in p else f" (`{p['default']}`)")
+                     for k, p in measure.get("arguments", {}).items())
+
+
+def plugin(p):
+    name = p["plugin"].split("/")[1]
+    print(f"### {p['plugin']}\n\n{p['summary'][0].upper() + p['summary'][1:]}.\n")
+    given = {n for s in p["given"] for n in list(s["set"]) + list(s["then"])}
+    parameters("", p["parameters"], given)
+    if len(p["given"]) > 1:
+        print("Give one of: " + "; ".join(", ".join(f"`{n}`" for n in s["set"])
+                                          for s in p["given"]) + ".\n")
+    if p["constraints"]:
+        print("Must hold: " + ", ".join(f"`{c}`" for c in p["constraints"]) + ".\n")
+    parameters("Further keys of every body", p["body_parameters"])
+    parameters("Further keys of every material", p["material_parameters"])
+    if p["measures"]:
+        print("Measures:\n")
+        table(("measure", "unit", "of", "arguments", "meaning"),
+              [(f"`{k}`", m["unit"], m["at"], argument_text(m), m.get("doc", ""))
+               for k, m in p["measures"].items()])
+    if p["requires"]:
+        print("Needs a solver that provides: " + ", ".join(p["requires"]) + ".\n")
+    print(f"Formula, limits and sources: `gamut show {p['plugin']}`"
+          + (f"; used as `model: {name}`" if p["plugin"].split("/")[0] != "solver" else "")
+          + ".\n")
+
+
+def fields(plugins):
+    """Fields of points that may be written: unit and components by name."""
+    found = {"position": ("m", 3), "velocity": ("m/s", 3), "mass": ("kg", 1)}
+    for p in plugins:
+        if p["plugin"].split("/")[0] not in ("elasticity", "effect"):
+            continue
+        for name, f in [*entries(p["outputs"]), *entries(p["state"])]:
+            found.setdefault(name, (f["unit"], f.get("components", 1)))
+    return found
+
+
+def entries(part):
+    return part.items() if isinstance(part, dict) else ((f["name"], f) for f in part)
+
+
+def write(gamut):
+    plugins = [ask(gamut, "show", p["id"], "--json") for p in ask(gamut, "list", "--json")]
+    check_frame(ask(gamut, "schema"), plugins)
+    print("# Scene reference\n\nEvery key that a scene may hold. Generated by "
+          "`docs/make_reference.py` from `gamut schema` and\n`gamut show`; the "
+          "[manual](manual.md) explains, this page lists.\n")
+    print("A number with a dimension carries its unit (`0.4 mm`, `190 m/s`, `383 J/(kg K)`); a pure "
+          "number carries\nnone. Ranges are in SI. \"-\" under default: may be left out.\n")
+    for title, _, rows in FRAME:
+        print(f"## {title}\n")
+        table(("key", "value", "meaning"), [(f"`{k}`", v, m) for k, v, m in rows])
+        if title.startswith("A quantity's"):
+            print("## Reductions\n")
+            table(("`reduce:`", "gives"), REDUCTIONS)
+    print("## Effects in a scene\n")
+    table(("key", "value", "meaning"), (
+        ("`model`", "name", "Which effect. Required."),
+        ("`enabled`", "auto, on or off", "`auto` unless stated: the effect may decline where it has "
+         "nothing to do. `on`: declining is an error. `off`: as if it were not there."),
+        ("`bodies`", "list of names", "Which bodies; all unless stated."),
+        ("`materials`", "list of names", "Which materials; all unless stated.")))
+    for kind, title in KINDS:
+        members = [p for p in plugins if p["plugin"].startswith(kind + "/")]
+        if members:
+            print(f"## {title}\n")
+        for p in members:
+            plugin(p)
+    print("## Fields\n\nFor `outputs.fields`, and by component (`stress_xx`, `velocity_y`) as "
+          "measures of a point; the\nelasticity's measures of points (`pressure`, `von_mises` ...) "
+          "may be outputs too. A field can be had where\nsome plugin of the scene keeps it.\n")
+    table(("field", "unit", "components"),
+          [(f"`{k}`", u, c) for k, (u, c) in sorted(fields(plugins).items())])
+
+
+if __name__ == "__main__":
+    write(sys.argv[1])
