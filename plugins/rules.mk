@@ -84,7 +84,7 @@ install-plugins: $(shared_objects)
 	  for suffix in '' $(suffixes); do \
 	    $(INSTALL_PROGRAM) "plugins/$$plugin/$$name$$suffix.so" "$$folder" || exit 1; \
 	  done; \
-	  for file in $$name.yaml $$name.test.yaml; do \
+	  for file in $$name.yaml $$name.test.yaml $$name.scene.yaml; do \
 	    test ! -f "$(srcdir)/plugins/$$plugin/$$file" || \
 	      $(INSTALL_DATA) "$(srcdir)/plugins/$$plugin/$$file" "$$folder" || exit 1; \
 	  done; \

@@ -85,11 +85,13 @@ static void prove_refusals(struct proof *proof, const struct parameter *paramete
   }
 }
 
-void prove_common(struct proof *proof)
+void prove_common(struct proof *proof, bool based)
 {
   const struct descriptor *d = proof->descriptor;
   check_begin(&proof->checks, "the descriptor");
   prove_descriptor(proof);
+  if (!based)
+    return;
   check_begin(&proof->checks, "refusals");
   prove_refusals(proof, d->parameter, d->parameters);
   prove_refusals(proof, d->material_parameter, d->material_parameters);

@@ -79,7 +79,8 @@ static void prove_kind(struct proof *proof, bool based)
   }
 }
 
-/* A crash shall end the child by its signal, whatever handlers the program has, and leave no core. */
+/* A crash shall end the child by its signal, whatever handlers the program has, and leave no core.
+ */
 static void crash_plainly(void)
 {
   static const int number[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
@@ -106,8 +107,7 @@ static size_t prove(struct registry *registry, const struct descriptor *descript
     check_that(&proof.checks, true, "the shared object opens (%s)",
                registry_level(registry, descriptor));
     bool based = prepare(&proof, trace);
-    if (based)
-      prove_common(&proof);
+    prove_common(&proof, based);
     prove_kind(&proof, based);
   } else {
     check_that(&proof.checks, false, "the shared object opens");

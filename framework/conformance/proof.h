@@ -47,7 +47,7 @@ struct span {
 struct span span_of(const char *name);
 
 /* The suites. Each is called after the common one, with the shared object open. */
-void prove_common(struct proof *);
+void prove_common(struct proof *, bool based); /* based: base parameters were found */
 void prove_known_answers(struct proof *);
 void prove_eos(struct proof *);
 void prove_strength(struct proof *);
