@@ -65,6 +65,7 @@ void planes_destroy(struct model *m)
   for (size_t i = 0; i < ps->count; i++) {
     gamut_release(m->run, ps->plane[i]->column);
     gamut_release(m->run, ps->plane[i]->node);
+    places_free(m->run, ps->plane[i]->held);
     gamut_release(m->run, ps->plane[i]->reaction);
     gamut_release(m->run, ps->plane[i]);
   }
@@ -152,7 +153,7 @@ static gamut_status touch(struct model *m, const int32_t node[3], size_t plane, 
 static gamut_status find_column(struct model *m, size_t plane, const int32_t node[3])
 {
   struct plane *p = m->planes.plane[plane];
-  struct column c = {.contact = false};
+  struct column c = {.node = {node[0], node[1], node[2]}};
   for (int k = BEFORE; k <= BEHIND; k++) {
     int32_t at[3] = {node[0], node[1], node[2]};
     at[p->axis] += p->sign * (ON - k);
@@ -170,14 +171,14 @@ static gamut_status find_column(struct model *m, size_t plane, const int32_t nod
 static gamut_status find_node(struct model *m, size_t plane, const int32_t node[3])
 {
   struct plane *p = m->planes.plane[plane];
-  int32_t number;
-  if (touch(m, node, plane, &number) != GAMUT_OK)
+  struct held_node held = {.node = {node[0], node[1], node[2]}};
+  if (touch(m, node, plane, &held.touched) != GAMUT_OK)
     return GAMUT_INTERNAL;
   void *array = p->node;
-  if (room(m, &array, sizeof number, p->nodes, &p->node_capacity) != GAMUT_OK)
+  if (room(m, &array, sizeof held, p->nodes, &p->node_capacity) != GAMUT_OK)
     return GAMUT_INTERNAL;
   p->node = array;
-  p->node[p->nodes++] = number;
+  p->node[p->nodes++] = held;
   return GAMUT_OK;
 }
 

@@ -15,13 +15,24 @@
 
 #include <gamut/run.h>
 
+#include "grid.h"
+
 struct model;
 
 enum { PLANES_MAX = 64, BEFORE = 0, ON = 1, BEHIND = 2 };
 
 /* Nodes across a plane that is made by images; -1 where there is none. */
 struct column {
+  int32_t node[3];    /* the one on the plane */
   int32_t touched[3]; /* BEFORE, ON, BEHIND */
+  bool contact;       /* in this step */
+  bool arrives;       /* and not in the step before */
+};
+
+/* A node with the condition at itself. */
+struct held_node {
+  int32_t node[3];
+  int32_t touched;
   bool contact;
 };
 
@@ -44,8 +55,9 @@ struct plane {
   double impulse[3], area;
   struct column *column;
   size_t columns, column_capacity;
-  int32_t *node;         /* touched nodes with the condition node by node */
+  struct held_node *node; /* with the condition node by node */
   size_t nodes, node_capacity;
+  struct place_table *held; /* nodes in contact in the last step */
 };
 
 struct planes {
@@ -69,7 +81,7 @@ gamut_status planes_fix_origin(struct model *);
 gamut_status planes_find(struct model *);
 /* Between the sums and the update of the grid, and after it. */
 void planes_before_update(struct model *);
-void planes_after_update(struct model *, double step);
+gamut_status planes_after_update(struct model *, double step);
 /* The same for the second pass of MUSL: momentum and mass, then velocity. */
 void planes_before_second(struct model *);
 void planes_after_second(struct model *);

@@ -49,6 +49,40 @@ static bool presses(const struct plane *p, const double *line, double step)
   return speed < 0.0;
 }
 
+/* Whether matter in contact is still pressed: the sign of the impulse that the plane would give. */
+static bool pressed(const struct plane *p, double *const line[3], double step)
+{
+  const double *before = line[BEFORE], *behind = line[BEHIND];
+  double impulse = 0.0, mass = 0.0, difference = 0.0;
+  for (int k = BEFORE; k <= BEHIND; k++)
+    if (line[k] != NULL)
+      impulse -= step * p->given.normal[p->axis] * line[k][LINE_FORCE + p->axis];
+  if (before != NULL) {
+    mass += before[LINE_MASS];
+    difference += before[LINE_MASS];
+    if (behind != NULL) {
+      mass += behind[LINE_MASS];
+      difference -= behind[LINE_MASS];
+    }
+    const double force = before[LINE_FORCE + p->axis] -
+                         (behind != NULL ? behind[LINE_FORCE + p->axis] : 0.0);
+    if (mass > 0.0)
+      impulse += step * p->given.normal[p->axis] * force * difference / mass;
+  }
+  return impulse >= 0.0;
+}
+
+/* Whether the column holds the plane in this step. */
+static bool in_contact(const struct model *m, const struct plane *p, const struct column *c,
+                       double *const line[3], double step)
+{
+  if (!(line[ON][LINE_MASS] > m->grid.empty))
+    return false;
+  if (!p->given.unilateral)
+    return true;
+  return c->arrives ? presses(p, line[ON], step) : pressed(p, line, step);
+}
+
 void planes_before_update(struct model *m)
 {
   struct planes *ps = &m->planes;
@@ -68,8 +102,8 @@ void planes_before_update(struct model *m)
       double *line[3];
       for (int k = 0; k < 3; k++)
         line[k] = line_of(m, column->touched[k]);
-      column->contact = line[ON][LINE_MASS] > m->grid.empty &&
-                        (!p->given.unilateral || presses(p, line[ON], step));
+      column->arrives = places_find(p->held, column->node) < 0;
+      column->contact = in_contact(m, p, column, line, step);
       if (column->contact)
         fold(p, line, LINE_MASS, LINE_MOMENTUM, true);
     }
@@ -111,9 +145,10 @@ static void rub(const struct plane *p, double *v, double mass, double normal_imp
     v[k] -= part * slip[k];
 }
 
-/* The condition at one node, on the velocity before and after the step. True in contact. */
+/* The condition at one node, on the velocity after the step, and on that before it unless matter just
+ * arrives. True in contact. */
 static bool hold(const struct plane *p, double *line, double mass, const double force[3],
-                 double step)
+                 double step, bool arrives)
 {
   const double *n = p->given.normal, *wall = p->given.velocity;
   double *v = line + LINE_VELOCITY, *change = line + LINE_CHANGE, old[3], into = 0.0, was = 0.0;
@@ -129,18 +164,48 @@ static bool hold(const struct plane *p, double *line, double mass, const double 
   if (p->given.normal_rule != GAMUT_PLANE_FREE)
     for (int k = 0; k < 3; k++) {
       v[k] -= into * n[k];
-      old[k] -= was * n[k];
+      old[k] -= arrives ? 0.0 : was * n[k];
     }
   if (p->given.tangential_rule == GAMUT_PLANE_PRESCRIBED) {
     const double out = (v[0] - wall[0]) * n[0] + (v[1] - wall[1]) * n[1] + (v[2] - wall[2]) * n[2];
-    for (int k = 0; k < 3; k++)
-      v[k] = old[k] = wall[k] + out * n[k];
+    for (int k = 0; k < 3; k++) {
+      v[k] = wall[k] + out * n[k];
+      old[k] = arrives ? old[k] : v[k];
+    }
   } else if (p->given.friction > 0.0) {
     rub(p, v, mass, press);
   }
   for (int k = 0; k < 3; k++)
     change[k] = v[k] - old[k];
   return true;
+}
+
+/* Matter that arrives is stopped: the velocity before the step is what it was without the plane. At a
+ * plane that always holds, only if the matter really flies at it; velocity that grows from the plane
+ * on is in order. */
+static void stop_arrival(struct model *m, const struct plane *p, const struct column *c)
+{
+  const struct touched *on = &m->planes.touched[c->touched[ON]];
+  for (int k = 0; k < 3; k++) {
+    if (!p->odd[k])
+      continue;
+    if (!p->given.unilateral) {
+      if (c->touched[BEFORE] < 0 || !(on->mass > 0.0))
+        continue;
+      const struct touched *before = &m->planes.touched[c->touched[BEFORE]];
+      const double v = p->given.velocity[k];
+      if (!(before->mass > 0.0) || fabs(on->momentum[k] / on->mass - v) <=
+                                       0.7 * fabs(before->momentum[k] / before->mass - v))
+        continue;
+    }
+    for (int n = BEFORE; n <= BEHIND; n++) {
+      double *line = line_of(m, c->touched[n]);
+      if (line == NULL || !(m->planes.touched[c->touched[n]].mass > m->grid.empty))
+        continue;
+      const struct touched *t = &m->planes.touched[c->touched[n]];
+      line[LINE_CHANGE + k] = line[LINE_VELOCITY + k] - t->momentum[k] / t->mass;
+    }
+  }
 }
 
 /* Area of a plane that a node stands for. */
@@ -216,7 +281,21 @@ static void book(struct model *m, double step)
   }
 }
 
-void planes_after_update(struct model *m, double step)
+/* Remembers which nodes are in contact. */
+static gamut_status remember(struct model *m, struct plane *p)
+{
+  if (places_clear(m->run, &p->held, p->columns + p->nodes) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  for (size_t c = 0; c < p->columns; c++)
+    if (p->column[c].contact)
+      places_put(p->held, p->column[c].node, 1);
+  for (size_t n = 0; n < p->nodes; n++)
+    if (p->node[n].contact)
+      places_put(p->held, p->node[n].node, 1);
+  return GAMUT_OK;
+}
+
+gamut_status planes_after_update(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
   ps->work = 0.0;
@@ -227,9 +306,14 @@ void planes_after_update(struct model *m, double step)
     p->area = 0.0;
     memset(p->impulse, 0, sizeof p->impulse);
     for (size_t n = 0; n < p->nodes; n++) {
-      const struct touched *t = &ps->touched[p->node[n]];
-      double *line = line_of(m, p->node[n]);
-      if (line[LINE_SHARE] <= m->grid.empty || !hold(p, line, line[LINE_SHARE], t->force, step))
+      struct held_node *node = &p->node[n];
+      const struct touched *t = &ps->touched[node->touched];
+      double *line = line_of(m, node->touched);
+      const bool arrives = (p->given.unilateral || p->moves) && !p->images &&
+                           places_find(p->held, node->node) < 0;
+      node->contact = line[LINE_SHARE] > m->grid.empty &&
+                      hold(p, line, line[LINE_SHARE], t->force, step, arrives);
+      if (!node->contact)
         continue;
       if (plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell)
         p->area += node_area(m, p, t->x);
@@ -244,6 +328,8 @@ void planes_after_update(struct model *m, double step)
       for (int k = 0; k < 3; k++)
         line[k] = line_of(m, p->column[c].touched[k]);
       unfold(p, line, true);
+      if (p->column[c].arrives)
+        stop_arrival(m, p, &p->column[c]);
       if (p->given.friction > 0.0)
         column_friction(m, p, &p->column[c], step);
       p->area += node_area(m, p, ps->touched[p->column[c].touched[ON]].x);
@@ -257,7 +343,10 @@ void planes_after_update(struct model *m, double step)
       p->reaction->impulse[k] -= p->impulse[k];
     }
     p->reaction->area = p->area;
+    if (remember(m, p) != GAMUT_OK)
+      return GAMUT_INTERNAL;
   }
+  return GAMUT_OK;
 }
 
 void planes_before_second(struct model *m)
@@ -282,11 +371,11 @@ void planes_after_second(struct model *m)
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
     for (size_t n = 0; n < p->nodes; n++) {
-      double *line = line_of(m, p->node[n]), keep[3];
+      double *line = line_of(m, p->node[n].touched), keep[3];
       if (line[LINE_SHARE] <= m->grid.empty)
         continue;
       memcpy(keep, line + LINE_CHANGE, sizeof keep);
-      hold(p, line, line[LINE_SHARE], none, 0.0);
+      hold(p, line, line[LINE_SHARE], none, 0.0, true);
       memcpy(line + LINE_CHANGE, keep, sizeof keep);
     }
   }

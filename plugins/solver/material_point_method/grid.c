@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* Open addressing on a key made of three places of 21 bits each. */
-struct block_table {
+struct place_table {
   size_t size;      /* a power of two */
   uint64_t *key;    /* 0: free */
   int32_t *number;
@@ -27,7 +27,7 @@ static uint64_t mix(uint64_t x)
   return x ^ x >> 33;
 }
 
-static size_t table_slot(const struct block_table *t, uint64_t key)
+static size_t table_slot(const struct place_table *t, uint64_t key)
 {
   size_t s = mix(key) & (t->size - 1);
   while (t->key[s] != 0 && t->key[s] != key)
@@ -35,15 +35,15 @@ static size_t table_slot(const struct block_table *t, uint64_t key)
   return s;
 }
 
-static int32_t table_find(const struct block_table *t, const int32_t at[3])
+int32_t places_find(const struct place_table *t, const int32_t at[3])
 {
-  if (t->size == 0)
+  if (t == NULL || t->size == 0)
     return -1;
   const size_t s = table_slot(t, key_of(at));
   return t->key[s] == 0 ? -1 : t->number[s];
 }
 
-static void table_put(struct block_table *t, const int32_t at[3], int32_t number)
+void places_put(struct place_table *t, const int32_t at[3], int32_t number)
 {
   const uint64_t key = key_of(at);
   const size_t s = table_slot(t, key);
@@ -51,7 +51,7 @@ static void table_put(struct block_table *t, const int32_t at[3], int32_t number
   t->number[s] = number;
 }
 
-static void table_free(struct gamut_run *run, struct block_table *t)
+void places_free(struct gamut_run *run, struct place_table *t)
 {
   if (t == NULL)
     return;
@@ -60,20 +60,34 @@ static void table_free(struct gamut_run *run, struct block_table *t)
   gamut_release(run, t);
 }
 
-static gamut_status table_new(struct gamut_run *run, size_t size, struct block_table **table)
+static gamut_status table_new(struct gamut_run *run, size_t size, struct place_table **table)
 {
-  struct block_table *t = gamut_allocate(run, "grid", sizeof *t);
+  struct place_table *t = gamut_allocate(run, "grid", sizeof *t);
   if (t != NULL) {
     t->size = size;
     t->key = gamut_allocate(run, "grid", size * sizeof *t->key);
     t->number = gamut_allocate(run, "grid", size * sizeof *t->number);
   }
   if (t == NULL || t->key == NULL || t->number == NULL) {
-    table_free(run, t);
+    places_free(run, t);
     return GAMUT_INTERNAL;
   }
   *table = t;
   return GAMUT_OK;
+}
+
+gamut_status places_clear(struct gamut_run *run, struct place_table **table, size_t places)
+{
+  size_t size = 64;
+  while (size < 2 * places)
+    size *= 2;
+  if (*table != NULL && (*table)->size >= size) {
+    memset((*table)->key, 0, (*table)->size * sizeof *(*table)->key);
+    return GAMUT_OK;
+  }
+  places_free(run, *table);
+  *table = NULL;
+  return table_new(run, size, table);
 }
 
 gamut_status grid_create(struct grid *g, struct gamut_run *run, unsigned dimension, unsigned order,
@@ -105,10 +119,10 @@ void grid_destroy(struct grid *g)
     return;
   gamut_release(g->run, g->block);
   gamut_release(g->run, g->line);
-  table_free(g->run, g->table);
+  places_free(g->run, g->table);
   gamut_release(g->run, g->spare_block);
   gamut_release(g->run, g->spare_line);
-  table_free(g->run, g->spare_table);
+  places_free(g->run, g->spare_table);
   gamut_release(g->run, g->source);
   gamut_release(g->run, g->box);
 }
@@ -120,7 +134,7 @@ static gamut_status grow(struct grid *g, size_t wanted)
   size_t size = 64;
   while (size < 2 * capacity)
     size *= 2;
-  struct block_table *table = NULL;
+  struct place_table *table = NULL;
   if (table_new(g->run, size, &table) != GAMUT_OK)
     return GAMUT_INTERNAL;
   const size_t bytes = g->block_nodes * LINE * sizeof(double);
@@ -129,16 +143,16 @@ static gamut_status grow(struct grid *g, size_t wanted)
   if (block == NULL || line == NULL) {
     gamut_release(g->run, block);
     gamut_release(g->run, line);
-    table_free(g->run, table);
+    places_free(g->run, table);
     return GAMUT_INTERNAL;
   }
   for (size_t b = 0; b < g->blocks; b++) {
     block[b] = g->block[b];
-    table_put(table, block[b].at, (int32_t)b);
+    places_put(table, block[b].at, (int32_t)b);
   }
   gamut_release(g->run, g->block);
   gamut_release(g->run, g->line);
-  table_free(g->run, g->table);
+  places_free(g->run, g->table);
   g->block = block;
   g->line = line;
   g->table = table;
@@ -157,7 +171,7 @@ gamut_status grid_begin(struct grid *g)
 {
   SWAP(struct node_block *, g->block, g->spare_block);
   SWAP(double *, g->line, g->spare_line);
-  SWAP(struct block_table *, g->table, g->spare_table);
+  SWAP(struct place_table *, g->table, g->spare_table);
   SWAP(size_t, g->capacity, g->spare_capacity);
   g->blocks = 0;
   if (g->table == NULL)
@@ -168,7 +182,7 @@ gamut_status grid_begin(struct grid *g)
 
 gamut_status grid_block(struct grid *g, const int32_t at[3], int32_t *number)
 {
-  *number = table_find(g->table, at);
+  *number = places_find(g->table, at);
   if (*number >= 0)
     return GAMUT_OK;
   if (g->blocks == g->capacity && grow(g, g->blocks + 1) != GAMUT_OK)
@@ -179,7 +193,7 @@ gamut_status grid_block(struct grid *g, const int32_t at[3], int32_t *number)
     b->at[k] = at[k];
   b->source = -1;
   *number = (int32_t)g->blocks++;
-  table_put(g->table, at, *number);
+  places_put(g->table, at, *number);
   return GAMUT_OK;
 }
 
@@ -207,9 +221,9 @@ gamut_status grid_finish(struct grid *g)
     for (unsigned o = 0; o < g->neighbours; o++) {
       int32_t place[3];
       neighbour_place(g, g->block[b].at, o, place);
-      g->block[b].neighbour[o] = table_find(g->table, place);
+      g->block[b].neighbour[o] = places_find(g->table, place);
     }
-    const int32_t old = g->spare_table == NULL ? -1 : table_find(g->spare_table, g->block[b].at);
+    const int32_t old = places_find(g->spare_table, g->block[b].at);
     double *line = g->line + b * doubles;
     if (old >= 0)
       memcpy(line, g->spare_line + (size_t)old * doubles, doubles * sizeof *line);
@@ -258,7 +272,7 @@ int64_t grid_line(const struct grid *g, const int32_t node[3])
     index += stride * (node[k] - at[k] * g->side);
     stride *= g->side;
   }
-  const int32_t b = table_find(g->table, at);
+  const int32_t b = places_find(g->table, at);
   return b < 0 ? -1 : (int64_t)b * (int64_t)g->block_nodes + index;
 }
 

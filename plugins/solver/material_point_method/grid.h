@@ -36,7 +36,14 @@ struct source {
   int32_t lower[3], upper[3];/* nodes of the tile from lower to upper - 1 hold its sums */
 };
 
-struct block_table; /* from places to numbers of blocks */
+/* From places (three whole numbers) to numbers. */
+struct place_table;
+
+/* Makes a table for that many places, or clears one that is large enough. */
+gamut_status places_clear(struct gamut_run *, struct place_table **, size_t places);
+void places_free(struct gamut_run *, struct place_table *);
+void places_put(struct place_table *, const int32_t at[3], int32_t number);
+int32_t places_find(const struct place_table *, const int32_t at[3]); /* -1: not there */
 
 struct grid {
   struct gamut_run *run;
@@ -52,11 +59,11 @@ struct grid {
   size_t blocks, capacity;
   struct node_block *block;
   double *line;              /* blocks * block_nodes * LINE */
-  struct block_table *table;
+  struct place_table *table;
   size_t spare_capacity;     /* what the last sort left, taken by the next */
   struct node_block *spare_block;
   double *spare_line;
-  struct block_table *spare_table;
+  struct place_table *spare_table;
 
   size_t sources, source_capacity;
   struct source *source;     /* in the order of chunk.serial */

@@ -74,8 +74,8 @@ static gamut_status extent(struct model *m, const struct cloud *c, int axis, dou
   return GAMUT_OK;
 }
 
-/* Width across `axis` at a distance from the foot (the lowest end) along `along`: of the points within
- * one cell, so that there always are some; at the foot of those within half a cell. */
+/* Width across the bar at a height above its foot (the lowest end): of the points no farther than
+ * `within` above or below, and half a cell at least; more where there are none. */
 static gamut_status diameter(struct model *m, const struct cloud *c,
                              const struct gamut_values *arguments, double *value)
 {
@@ -89,9 +89,9 @@ static gamut_status diameter(struct model *m, const struct cloud *c,
   const bool now = strcmp(gamut_text(arguments, "of"), "current") == 0;
   const double length = now ? high - low : c->body->spacing[along] * (double)c->body->count[along];
   const double place = low + part * length;
-  for (double reach = 0.5; reach < 64.0; reach *= 2.0)
-    if (span(m, c, axis, along, place - reach * m->cell, place + reach * m->cell, &from, &to))
-      break;
+  double reach = fmax(gamut_real(arguments, "within") * length, 0.5 * m->cell);
+  while (!span(m, c, axis, along, place - reach, place + reach, &from, &to) && reach < length)
+    reach *= 2.0;
   *value = width(m, from, to, axis);
   return GAMUT_OK;
 }

@@ -109,7 +109,8 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
   memset(&m->nodes, 0, sizeof m->nodes);
   for (size_t b = 0; b < m->grid.blocks; b++)
     add_nodes(&m->nodes, &m->node_sum[b]);
-  planes_after_update(m, step);
+  if (planes_after_update(m, step) != GAMUT_OK)
+    return GAMUT_INTERNAL;
   m->moved += m->nodes.speed * step / m->cell;
   return GAMUT_OK;
 }
