@@ -131,7 +131,9 @@ static void text_parameters(const struct evaluation *e, FILE *file)
       fprintf(file, "%s", value->text);
     else
       fprintf(file, "%.6g %s", value->real, shown_unit(value->parameter->unit));
-    fprintf(file, "%s\n", value->given ? "" : value->node ? "" : "  (default or derived)");
+    if (!value->given)
+      fputs(value->parameter->standard ? "  (default)" : "  (derived)", file);
+    fputc('\n', file);
   }
 }
 
@@ -151,42 +153,60 @@ static void text_inputs(const struct evaluation *e, FILE *file)
 
 static void text_point(struct evaluation *e, FILE *file)
 {
-  char label[64];
+  char label[160];
   for (size_t i = 0; i < e->slots; i++)
     if (slot_is_output(&e->slot[i])) {
       slot_label(&e->slot[i], label, sizeof label);
-      fprintf(file, "  %-38s %14.8g %s\n", label, bench_array(e->bench, label)[0],
+      fprintf(file, "  %-50s %16.9g %s\n", label, bench_array(e->bench, label)[0],
               shown_unit(e->slot[i].unit));
     }
+  for (size_t k = 0; e->derivatives && k < e->bys; k++) {
+    snprintf(label, sizeof label, "d %s / d %s", e->of, e->by[k].name);
+    fprintf(file, "  %-50s %16.9g%s\n", label, e->first[k],
+            e->by[k].own < 0 ? "  (by differences)" : "");
+  }
   for (size_t k = 0; e->derivatives && k < e->bys; k++)
-    fprintf(file, "  d %s / d %-*s %14.8g%s\n", e->of, (int)(31 - strlen(e->of)), e->by[k].name,
-            e->first[k], e->by[k].own < 0 ? "  (differences)" : "");
-  for (size_t k = 0; e->derivatives && k < e->bys; k++)
-    for (size_t l = k; l < e->bys; l++)
-      fprintf(file, "  d2 %s / d %s d %s  %.8g\n", e->of, e->by[k].name, e->by[l].name,
-              e->second[k * e->bys + l]);
+    for (size_t l = k; l < e->bys; l++) {
+      snprintf(label, sizeof label, "d2 %s / d %s d %s", e->of, e->by[k].name, e->by[l].name);
+      fprintf(file, "  %-50s %16.9g%s\n", label, e->second[k * e->bys + l],
+              e->by[k].own < 0 || e->by[l].own < 0 ? "  (by differences)" : "");
+    }
+}
+
+/* Columns as wide as their names, and wide enough for numbers. */
+static void put_cell(FILE *file, const char *name, const double *value)
+{
+  int width = (int)strlen(name) < 14 ? 14 : (int)strlen(name);
+  if (value)
+    fprintf(file, "%*.8g  ", width, *value);
+  else
+    fprintf(file, "%*s  ", width, name);
+}
+
+/* One row of the table: names, or the values at a point. */
+static void text_row(struct evaluation *e, FILE *file, bool names, size_t point)
+{
+  char label[96];
+  for (size_t i = 0; i < e->inputs; i++)
+    if (e->input[i].count > 1) {
+      double value = evaluation_input(e, i, point);
+      put_cell(file, e->input[i].name, names ? NULL : &value);
+    }
+  for (size_t i = 0; i < e->slots; i++)
+    if (slot_is_output(&e->slot[i])) {
+      slot_label(&e->slot[i], label, sizeof label);
+      put_cell(file, label, names ? NULL : &bench_array(e->bench, label)[point]);
+    }
 }
 
 static void text_table(struct evaluation *e, FILE *file)
 {
-  char label[64];
-  for (size_t i = 0; i < e->inputs; i++)
-    if (e->input[i].count > 1)
-      fprintf(file, "%s\t", e->input[i].name);
-  for (size_t i = 0; i < e->slots; i++)
-    if (slot_is_output(&e->slot[i]))
-      fprintf(file, "%s\t", slot_label(&e->slot[i], label, sizeof label));
+  text_row(e, file, true, 0);
   fputs("status\n", file);
   for (size_t p = 0; p < e->points; p++) {
     const char *name, *text;
     point_status(e, p, &name, &text);
-    for (size_t i = 0; i < e->inputs; i++)
-      if (e->input[i].count > 1)
-        fprintf(file, "%.6g\t", evaluation_input(e, i, p));
-    for (size_t i = 0; i < e->slots; i++)
-      if (slot_is_output(&e->slot[i]))
-        fprintf(file, "%.8g\t",
-                bench_array(e->bench, slot_label(&e->slot[i], label, sizeof label))[p]);
+    text_row(e, file, false, p);
     fprintf(file, "%s\n", name);
   }
 }
