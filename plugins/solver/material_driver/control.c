@@ -20,7 +20,7 @@ static const struct key {
            {"velocity_gradient", CONTROL_RATE, NORMALS, COMPONENTS}};
 enum { KEYS = sizeof key / sizeof key[0] };
 
-/* ---- reading ----------------------------------------------------------------------------------- */
+/* ---- reading -------------------------------------------------------------------------------- */
 
 static gamut_status check_rows(struct gamut_run *run, const struct gamut_values *values,
                                const char *path, const struct curve *curve)
@@ -31,8 +31,7 @@ static gamut_status check_rows(struct gamut_run *run, const struct gamut_values 
                            "time goes back in row %zu of the table", i + 1);
     if (curve->control == CONTROL_STRAIN && !(curve->row[2 * i + 1] > -1.0))
       return gamut_fail_at(run, values, path, "greater than -1",
-                           "an engineering strain of %g leaves no length",
-                           curve->row[2 * i + 1]);
+                           "an engineering strain of %g leaves no length", curve->row[2 * i + 1]);
   }
   return GAMUT_OK;
 }
@@ -109,7 +108,7 @@ void path_free(struct path *path)
     free(path->curve[c].owned);
 }
 
-/* ---- values ------------------------------------------------------------------------------------ */
+/* ---- values --------------------------------------------------------------------------------- */
 
 /* On a line between rows; constant before the first and after the last. */
 static double value_at(const struct curve *curve, double time)

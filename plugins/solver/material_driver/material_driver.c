@@ -15,7 +15,7 @@ static void destroy(void *self)
   free(driver);
 }
 
-/* ---- create ------------------------------------------------------------------------------------ */
+/* ---- create --------------------------------------------------------------------------------- */
 
 static gamut_status make_points(struct driver *driver)
 {
@@ -48,9 +48,8 @@ static gamut_status name_fields(struct driver *driver)
 
 static gamut_status add_task(struct driver *driver)
 {
-  const struct gamut_use uses[] = {{"velocity_gradient", GAMUT_WRITE},
-                                   {"stress", GAMUT_READ_BEGIN},
-                                   {"energy", GAMUT_READ_IF}};
+  const struct gamut_use uses[] = {
+      {"velocity_gradient", GAMUT_WRITE}, {"stress", GAMUT_READ_BEGIN}, {"energy", GAMUT_READ_IF}};
   const struct gamut_task task = {.name = "drive",
                                   .phase = "drive",
                                   .extent = GAMUT_PER_CHUNK,
@@ -110,12 +109,11 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   return status;
 }
 
-/* ---- running ----------------------------------------------------------------------------------- */
+/* ---- running -------------------------------------------------------------------------------- */
 
 static double energy_at_start(const struct driver *driver, size_t i)
 {
-  const double *energy =
-      GAMUT_HOST(driver->run)->stored(driver->set[i], driver->energy, 0);
+  const double *energy = GAMUT_HOST(driver->run)->stored(driver->set[i], driver->energy, 0);
   return energy ? energy[0] : 0.0;
 }
 

@@ -66,8 +66,8 @@ void compose(const double G[9], const double H[9], double out[9])
 
 double volume_change(const double H[9])
 {
-  double minors = (H[0] * H[4] - H[1] * H[3]) + (H[4] * H[8] - H[5] * H[7]) +
-                  (H[8] * H[0] - H[6] * H[2]);
+  double minors =
+      (H[0] * H[4] - H[1] * H[3]) + (H[4] * H[8] - H[5] * H[7]) + (H[8] * H[0] - H[6] * H[2]);
   double whole = H[0] * (H[4] * H[8] - H[5] * H[7]) - H[1] * (H[3] * H[8] - H[5] * H[6]) +
                  H[2] * (H[3] * H[7] - H[4] * H[6]);
   return (H[0] + H[4] + H[8]) + (minors + whole);

@@ -7,7 +7,7 @@
 
 enum { LANES = GAMUT_LANES, ITERATIONS = 60 };
 
-static const double wanted_share = 1e-13, enough_share = 1e-10; /* of the largest stress */
+static const double wanted_share = 1e-13, enough_share = 1e-10;       /* of the largest stress */
 static const double wanted_rounding = 2e-16, enough_rounding = 1e-14; /* of the stiffness */
 
 /* The equations of a step. */
@@ -15,9 +15,9 @@ struct system {
   struct driver *driver;
   const struct gamut_chunk *chunk;
   double dt;
-  double fixed[9];            /* A of what is prescribed */
+  double fixed[9]; /* A of what is prescribed */
   size_t unknowns, component[SYMMETRIC];
-  double wanted[SYMMETRIC];   /* stresses */
+  double wanted[SYMMETRIC]; /* stresses */
   double slope[SYMMETRIC][SYMMETRIC];
 };
 
@@ -116,7 +116,7 @@ static bool newton_step(const struct system *s, const double lack[SYMMETRIC],
   return true;
 }
 
-/* Tries the step and its halves; takes the first that helps enough, or the best. False: none does. */
+/* Tries the step and its halves: takes the first that helps enough, else the best, if any. */
 static gamut_status line_search(struct system *s, const double step[SYMMETRIC], double now,
                                 double move[SYMMETRIC], bool *better)
 {
@@ -195,8 +195,8 @@ static gamut_status solve(struct system *s, struct point *point, double move[SYM
   return status;
 }
 
-/* Without a step before to go by, a long step may end at a root far from the path: shares of the step
- * lead there, from one that is as good as linear. */
+/* Without a step before to go by, a long step may end at a root far from the path: shares of the
+ * step lead there, from one that is as good as linear. */
 static gamut_status approach(const struct system *whole, struct point *point,
                              double move[SYMMETRIC])
 {
@@ -210,10 +210,10 @@ static gamut_status approach(const struct system *whole, struct point *point,
     for (size_t k = 0; k < 9; k++)
       part.fixed[k] *= share[i];
     for (size_t k = 0; k < whole->unknowns; k++) {
-      double begin = gamut_begin(whole->chunk, whole->driver->stress,
-                                 (unsigned)whole->component[k])[0];
-      part.wanted[k] = share[i] < 1.0 ? begin + share[i] * (whole->wanted[k] - begin)
-                                      : whole->wanted[k];
+      double begin =
+          gamut_begin(whole->chunk, whole->driver->stress, (unsigned)whole->component[k])[0];
+      part.wanted[k] =
+          share[i] < 1.0 ? begin + share[i] * (whole->wanted[k] - begin) : whole->wanted[k];
       move[k] *= i ? share[i] / share[i - 1] : 0.0;
     }
     point->failed = NULL;
@@ -243,8 +243,7 @@ static double work_of(const struct driver *driver, const struct gamut_chunk *chu
 {
   const double *A = point->A;
   double J0 = 1.0 + volume_change(point->H), J1 = 1.0 + volume_change(point->H_end), sum = 0.0;
-  double strain[SYMMETRIC] = {A[0],        A[4],        A[8],
-                              A[1] + A[3], A[5] + A[7], A[6] + A[2]};
+  double strain[SYMMETRIC] = {A[0], A[4], A[8], A[1] + A[3], A[5] + A[7], A[6] + A[2]};
   for (unsigned c = 0; c < SYMMETRIC; c++)
     sum += strain[c] * (J0 * gamut_begin(chunk, driver->stress, c)[0] +
                         J1 * gamut_end(chunk, driver->stress, c)[0]);
