@@ -74,12 +74,13 @@ static gamut_status write_files(struct command *command, const char *folder,
 /* Names become names in C and of files. */
 static bool name_is_good(const char *name)
 {
+  /* Words of C, and structs of the skeletons. */
   static const char *const taken[] = {
-      "auto",   "break",  "case",     "char",   "const",  "continue", "default", "do",
-      "double", "else",   "enum",     "extern", "float",  "for",      "goto",    "if",
-      "inline", "int",    "long",     "main",   "move",   "register", "return",  "short",
-      "signed", "sizeof", "static",   "struct", "switch", "typedef",  "union",   "unsigned",
-      "void",   "while",  "pressure", "stress", "drag",   "state",    "sample",  "start"};
+      "auto",   "break",    "case",   "char",   "const",    "continue", "default", "do",
+      "double", "else",     "enum",   "extern", "float",    "for",      "goto",    "if",
+      "inline", "int",      "long",   "main",   "register", "restrict", "return",  "short",
+      "signed", "sizeof",   "static", "struct", "switch",   "typedef",  "union",   "unsigned",
+      "void",   "volatile", "while",  "state",  "sums"};
   size_t length = strlen(name);
   if (length == 0 || length > 40 || !islower((unsigned char)name[0]))
     return false;

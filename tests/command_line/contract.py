@@ -204,7 +204,10 @@ def interrupted(folder):
     run = subprocess.Popen([GAMUT, "--no-user-plugins", "run", os.path.join(folder, "shear.yaml"),
                             "--set", "solver.steps=50000000", "-o", result], text=True,
                            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-    time.sleep(1.5)
+    end = time.time() + 60
+    while not os.path.exists(os.path.join(result, "scene.yaml")) and time.time() < end:
+        time.sleep(0.05)
+    time.sleep(0.5)
     run.send_signal(signal.SIGTERM)
     try:
         run.communicate(timeout=60)
