@@ -159,5 +159,7 @@ gamut_status march_step(struct gamut_run *, bool *more);
 
 /* stop.c */
 gamut_status stop_check(struct gamut_run *);
+/* Names the fastest point with its state; "" where points have no velocity. */
+void describe_fastest(const struct gamut_run *, char *text, size_t size);
 
 #endif

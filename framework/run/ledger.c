@@ -54,7 +54,8 @@ struct balance {
   double stored, start, supplied, lost, scale;
 };
 
-/* Accounts of one unit share a scale: a momentum that is zero by symmetry is judged by the others. */
+/* Accounts of one unit share a scale: a momentum that is zero by symmetry is judged by the others.
+ */
 static double scale_of(const struct gamut_run *run, const char *unit)
 {
   double scale = 0.0;
@@ -107,10 +108,14 @@ gamut_status ledger_check(struct gamut_run *run)
   double scale = fabs(b.start) + fabs(b.supplied);
   if (!(created > energy_tolerance * scale && scale > 0.0) && isfinite(b.stored))
     return GAMUT_OK;
-  return trace_fail(run->trace, GAMUT_NUMERICS,
-                    "energy was created: %.6g J more than the %.6g J that the bodies had and were "
-                    "given, at t = %.6g s, step %llu of %.3g s. The step is too long for this state "
-                    "(a smaller `courant`, or no fixed `step`), or the shape functions let points "
-                    "slip (a smoother `shape`)",
-                    created, scale, run->time, (unsigned long long)run->steps, run->step);
+  char point[768];
+  describe_fastest(run, point, sizeof point);
+  return trace_fail(
+      run->trace, GAMUT_NUMERICS,
+      "energy was created: %.6g J more than the %.6g J that the bodies had and were "
+      "given, at t = %.6g s, step %llu of %.3g s. The step is too long for this state "
+      "(a smaller `courant`, or no fixed `step`), or the shape functions let points "
+      "slip (a smoother `shape`)%s%s",
+      created, scale, run->time, (unsigned long long)run->steps, run->step,
+      *point ? ". Fastest is " : "", point);
 }

@@ -1,3 +1,4 @@
+#include <math.h>
 #include <string.h>
 
 #include "run/inside.h"
@@ -6,8 +7,8 @@
 static void describe_state(const struct gamut_run *run, const struct point_set *set, size_t slot,
                            char *text, size_t size)
 {
-  static const char *const shown[] = {"position", "velocity", "volume_ratio", "stress",
-                                      "plastic_strain", "energy", "temperature"};
+  static const char *const shown[] = {"position",       "velocity", "volume_ratio", "stress",
+                                      "plastic_strain", "energy",   "temperature"};
   *text = '\0';
   for (size_t f = 0; f < sizeof shown / sizeof shown[0]; f++) {
     const struct field *field = fields_find(run->fields, shown[f]);
@@ -28,6 +29,40 @@ static void describe_state(const struct gamut_run *run, const struct point_set *
   }
 }
 
+static double speed_squared(const struct point_set *set, const struct field *velocity, size_t slot)
+{
+  double sum = 0.0;
+  for (unsigned k = 0; k < velocity->handle.components; k++) {
+    const double *v = set_stored(set, velocity->handle, k);
+    sum += v ? v[slot] * v[slot] : 0.0;
+  }
+  return sum;
+}
+
+void describe_fastest(const struct gamut_run *run, char *text, size_t size)
+{
+  const struct field *velocity = fields_find(run->fields, "velocity");
+  const struct point_set *worst = NULL;
+  size_t slot = 0;
+  double most = -1.0;
+  *text = '\0';
+  for (size_t s = 0; velocity && velocity->stored && s < run->scene->bodies; s++)
+    for (size_t i = 0; i < run->set[s]->open.slots; i++) {
+      double speed = run->set[s]->id[i] < 0 ? -1.0 : speed_squared(run->set[s], velocity, i);
+      if (speed > most || isnan(speed)) {
+        most = isnan(speed) ? INFINITY : speed;
+        worst = run->set[s];
+        slot = i;
+      }
+    }
+  if (!worst)
+    return;
+  int used = snprintf(text, size, "point %lld of body '%s': ", (long long)worst->id[slot],
+                      worst->open.body);
+  if (used > 0 && (size_t)used < size)
+    describe_state(run, worst, slot, text + used, size - (size_t)used);
+}
+
 static gamut_status report(struct gamut_run *run, const struct flag_stop *stop)
 {
   char state[768] = "";
@@ -40,8 +75,8 @@ static gamut_status report(struct gamut_run *run, const struct flag_stop *stop)
                     "(material '%s'): %s",
                     stop->plugin->id, run->time, (unsigned long long)run->steps,
                     stop->message ? stop->message->text : "a point may not go on",
-                    (long long)stop->id, set->open.body,
-                    run->scene->material[set->material].name, state);
+                    (long long)stop->id, set->open.body, run->scene->material[set->material].name,
+                    state);
 }
 
 gamut_status stop_check(struct gamut_run *run)
