@@ -275,9 +275,10 @@ static double probe_value(void *self, double x, double y)
   return value;
 }
 
-static double first_step(double value)
+/* The largest step of a table; second differences need a longer one against rounding. */
+static double first_step(double value, bool second)
 {
-  return value != 0 ? 0.02 * fabs(value) : 1e-3;
+  return (second ? 5 : 1) * (value != 0 ? 0.02 * fabs(value) : 1e-3);
 }
 
 static double by_differences(struct evaluation *e, size_t k, size_t l, bool second)
@@ -285,7 +286,7 @@ static double by_differences(struct evaluation *e, size_t k, size_t l, bool seco
   double error, value;
   struct probe probe = {.e = e, .x = &e->by[k], .x0 = argument_value(e, &e->by[k])};
   struct difference difference = {
-      .value = probe_value, .self = &probe, .step_x = first_step(probe.x0)};
+      .value = probe_value, .self = &probe, .step_x = first_step(probe.x0, second)};
   if (!second) {
     value = difference_first(&difference, &error);
     return isfinite(value) ? value : difference_sided(&difference, 1, &error);
@@ -294,7 +295,7 @@ static double by_differences(struct evaluation *e, size_t k, size_t l, bool seco
     return difference_second(&difference, &error);
   probe.y = &e->by[l];
   probe.y0 = argument_value(e, probe.y);
-  difference.step_y = first_step(probe.y0);
+  difference.step_y = first_step(probe.y0, true);
   return difference_mixed(&difference, &error);
 }
 
