@@ -97,7 +97,7 @@ static gamut_status read_scene(struct gamut_session *session, const char *file,
       goto done;
     }
     path[i] = strndup(request->set[i], (size_t)(equals - request->set[i]));
-    override[i] = (struct scene_override){path[i], equals + 1};
+    override[i] = (struct scene_override){.path = path[i], .value = equals + 1};
   }
   TRY(scene_read(file, override, request->sets, session->registry, session->units, session->trace,
                  scene));
