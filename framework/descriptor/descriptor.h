@@ -13,7 +13,10 @@
  *     types: real (default), integer, boolean, choice (choices: [..]), text, vector (size: 2 or
  *     "1..3"), body (name of a body), expression (variables: [x, y, z]), table (columns: {time: s,
  *     strain: 1}; a sequence of rows or {file: NAME.csv}; of two columns also one number, which is
- *     the row [0, number]), group (members: like parameters).
+ *     the row [0, number]), group (members: like parameters), levels (of an estimator: a mapping of
+ *     scene paths to lists of values, what a study varies; the choice `combine` beside it says how:
+ *     grid, every value with every other, or zip, side by side), plugin (kind: random_field; a plugin
+ *     of that kind with its parameters, {model: NAME, ...}).
  *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI
  *     unless they carry a unit: "[a, b)", "(0, inf)".
  *   constraints: ["T_melt > T_room"]   comparisons over real parameters
@@ -28,7 +31,9 @@
  *     plastic_strain: {unit: 1, components: 1, initial: 0, doc: ...}   and components of a field of
  *                                      the vocabulary need not be stated, and agree if they are
  *   scratch: 24                        scratch arrays for the kernel
- *   laws: [eos, strength?]             elasticity: callees; `?`: may be absent (null pointer)
+ *   laws: [eos, strength?]             elasticity: callees; `?`: may be absent (null pointer).
+ *                                      solver: laws that it calls itself; it then updates materials by
+ *                                      no elasticity, and materials need none
  *   inverse: true                      strength: offers the inverse
  *   derivatives: {of: pressure, by: [C0, S1, reference_density]}
  *   variants: [{when: "C == 0", kernel: name, drops: [plastic_strain_rate]}]   `when` over real,
@@ -63,7 +68,7 @@
 
 enum value_type {
   VALUE_REAL, VALUE_INTEGER, VALUE_BOOLEAN, VALUE_CHOICE, VALUE_TEXT, VALUE_VECTOR, VALUE_BODY,
-  VALUE_EXPRESSION, VALUE_TABLE, VALUE_GROUP
+  VALUE_EXPRESSION, VALUE_TABLE, VALUE_LEVELS, VALUE_PLUGIN, VALUE_GROUP
 };
 
 /* A range with open or closed ends, SI. */
@@ -88,6 +93,7 @@ struct parameter {
   size_t choices;
   struct parameter *member;    /* of a group */
   size_t members;
+  enum gamut_kind kind;        /* of a plugin */
 };
 
 struct given_set {

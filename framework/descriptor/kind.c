@@ -46,7 +46,8 @@ const char *value_type_name(enum value_type type)
       [VALUE_BOOLEAN] = "boolean", [VALUE_CHOICE] = "choice",
       [VALUE_TEXT] = "text",       [VALUE_VECTOR] = "vector",
       [VALUE_BODY] = "body",       [VALUE_EXPRESSION] = "expression",
-      [VALUE_TABLE] = "table",     [VALUE_GROUP] = "group",
+      [VALUE_TABLE] = "table",     [VALUE_LEVELS] = "levels",
+      [VALUE_PLUGIN] = "plugin",   [VALUE_GROUP] = "group",
   };
   return (size_t)type < LENGTH(name) ? name[type] : NULL;
 }

@@ -22,7 +22,7 @@ static const struct {
     {"source", ALL},
     {"symbol", ALL},
     {"optional", ALL},
-    {"default", ALL & ~BIT(VALUE_GROUP)},
+    {"default", ALL & ~(BIT(VALUE_GROUP) | BIT(VALUE_PLUGIN))},
     {"unit", RANGED | BIT(VALUE_EXPRESSION)},
     {"fit", RANGED},
     {"physical", RANGED},
@@ -32,6 +32,7 @@ static const struct {
     {"variables", BIT(VALUE_EXPRESSION)},
     {"columns", BIT(VALUE_TABLE)},
     {"members", BIT(VALUE_GROUP)},
+    {"kind", BIT(VALUE_PLUGIN)},
 };
 
 static enum value_type read_type(struct reader *reader, const struct tree *node)
@@ -205,9 +206,23 @@ static void check_default(struct reader *reader, const struct parameter *paramet
     return;
   case VALUE_EXPRESSION:
   case VALUE_TABLE:
+  case VALUE_LEVELS:
+  case VALUE_PLUGIN:
   case VALUE_GROUP:
     return;
   }
+}
+
+static void read_kind(struct reader *reader, const struct tree *node, struct parameter *parameter)
+{
+  const char *text = read_text(reader, node, "kind", true);
+  const char *known[GAMUT_KINDS];
+  if (!text || kind_from_name(text, &parameter->kind))
+    return;
+  for (int kind = 0; kind < GAMUT_KINDS; kind++)
+    known[kind] = kind_name((enum gamut_kind)kind);
+  fault_unknown(reader, tree_get(node, "kind"), false, known, LENGTH(known),
+                "unknown kind of plugin '%s'", text);
 }
 
 static void read_by_type(struct reader *reader, const struct tree *node,
@@ -225,6 +240,9 @@ static void read_by_type(struct reader *reader, const struct tree *node,
     break;
   case VALUE_TABLE:
     read_columns(reader, node, parameter);
+    break;
+  case VALUE_PLUGIN:
+    read_kind(reader, node, parameter);
     break;
   case VALUE_GROUP:
     if (!tree_get(node, "members"))

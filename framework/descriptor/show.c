@@ -63,6 +63,8 @@ static void put_type(FILE *file, const struct parameter *parameter)
     if (parameter->size_max > parameter->size_min)
       fprintf(file, " to %zu", parameter->size_max);
   }
+  if (parameter->type == VALUE_PLUGIN)
+    fprintf(file, " of kind %s", kind_name(parameter->kind));
   if (parameter->unit && parameter->type != VALUE_INTEGER) {
     if (strcmp(parameter->unit, "1") == 0)
       fputs(", a pure number", file);

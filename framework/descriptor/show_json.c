@@ -76,6 +76,8 @@ static json_t *parameters(const struct parameter *parameter, size_t count)
         set_text(columns, p->choice[k], p->choice_unit[k]);
       json_object_set_new(value, "columns", columns);
     }
+    if (p->type == VALUE_PLUGIN)
+      set_text(value, "kind", kind_name(p->kind));
     if (p->type == VALUE_GROUP)
       json_object_set_new(value, "members", parameters(p->member, p->members));
     json_object_set_new(list, p->name, value);

@@ -174,6 +174,23 @@ double distribution_quantile(const struct distribution *d, double u)
   return fmin(fmax(x, d->lower), d->upper);
 }
 
+double distribution_of_normal(const struct distribution *d, double z)
+{
+  struct law law = law_of(d);
+  bool truncated = d->truncated && !bounded(d->kind), above = z > 0;
+  double p = above ? gsl_cdf_ugaussian_Q(z) : gsl_cdf_ugaussian_P(z);
+  if (!truncated && law.kind == DISTRIBUTION_NORMAL)
+    return law.first + law.second * z;
+  if (!truncated && law.kind == DISTRIBUTION_LOGNORMAL)
+    return exp(law.first + law.second * z);
+  if (!truncated)
+    return inverse(&law, p, above);
+  bool high = tail(&law, d->lower, false) >= 0.5;
+  double within = fabs(tail(&law, d->upper, high) - tail(&law, d->lower, high));
+  double x = inverse(&law, tail(&law, above ? d->upper : d->lower, above) + p * within, above);
+  return fmin(fmax(x, d->lower), d->upper);
+}
+
 double distribution_below(const struct distribution *d, double x)
 {
   struct law law = law_of(d);

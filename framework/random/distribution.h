@@ -30,6 +30,9 @@ struct distribution {
 
 /* Quantile at probability u in (0, 1). */
 double distribution_quantile(const struct distribution *, double u);
+/* The value that belongs to a standard normal variable z: the quantile at z's probability, exact in
+ * both tails. */
+double distribution_of_normal(const struct distribution *, double z);
 /* Probability below x. */
 double distribution_below(const struct distribution *, double x);
 

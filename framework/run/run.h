@@ -23,6 +23,9 @@ struct run_options {
    * and run_march returns GAMUT_STOPPED without an error in the trace; the summary then says
    * "status": "interrupted". */
   const volatile sig_atomic_t *stop;
+  /* What chance in the run hangs on: the scene's seed (0: as scene->seed), and which run of a study
+   * this is, from 0. */
+  uint64_t seed, realisation;
 };
 
 struct gamut_run;

@@ -262,9 +262,13 @@ static void override_put(struct reading *reading, struct tree *root,
 {
   char name[PATH_SIZE], parent[PATH_SIZE];
   struct tree *value = NULL;
+  gamut_status status = GAMUT_OK;
   snprintf(name, sizeof name, "--set %s", override->path);
-  gamut_status status = tree_parse(override->value, strlen(override->value), name, GAMUT_SCENE,
-                                   reading->trace, &value);
+  if (!override->node)
+    status = tree_parse(override->value, strlen(override->value), name, GAMUT_SCENE, reading->trace,
+                        &value);
+  else if (!(value = tree_copy(override->node)))
+    status = trace_fail(reading->trace, GAMUT_INTERNAL, "out of memory");
   if (status == GAMUT_OK && sets_model(override)) {
     snprintf(parent, sizeof parent, "%.*s", (int)strlen(override->path) - 6, override->path);
     struct tree *node = tree_at(root, parent);

@@ -15,6 +15,11 @@ static const struct parameter density_parameter[] = {{
     .physical = {true, 0, INFINITY, true, true},
 }};
 
+const struct parameter *material_density(void)
+{
+  return density_parameter;
+}
+
 /* All material parameters that installed plugins declare, each name once; none is required here. */
 static const struct parameter *extra_parameters(struct reading *reading, size_t *count)
 {
@@ -61,6 +66,13 @@ static void neighbours_of(struct reading *reading, const struct tree *node, cons
                   COUNT_OF(own_keys));
 }
 
+/* A solver that calls laws itself binds no elasticity. A card may be meant for such a solver. */
+static const struct descriptor *own_caller(const struct reading *reading)
+{
+  const struct descriptor *solver = reading->scene->solver.descriptor;
+  return solver && solver->laws ? solver : NULL;
+}
+
 static void elasticity_default(struct reading *reading, struct material *material)
 {
   char path[PATH_SIZE];
@@ -85,26 +97,28 @@ static void elasticity_default(struct reading *reading, struct material *materia
 /* What the elasticity calls must be there; what it does not call is left unused with a word. */
 static void laws_check(struct reading *reading, const struct material *material)
 {
-  const struct descriptor *elasticity = material->elasticity.descriptor;
-  if (!elasticity)
+  const struct descriptor *solver = own_caller(reading);
+  const struct descriptor *caller = solver ? solver : material->elasticity.descriptor;
+  if (!caller)
     return;
   static const char *const law[] = {"eos", "strength"};
   for (size_t i = 0; i < COUNT_OF(law); i++) {
     const struct tree *given = tree_get(material->node, law[i]);
     const struct field_use *use = NULL;
-    for (size_t k = 0; k < elasticity->laws; k++)
-      if (strcmp(elasticity->law[k].name, law[i]) == 0)
-        use = &elasticity->law[k];
+    for (size_t k = 0; k < caller->laws; k++)
+      if (strcmp(caller->law[k].name, law[i]) == 0)
+        use = &caller->law[k];
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "materials.%s.%s", material->name, law[i]);
     if (use && !use->optional && !given)
       blame_missing(reading, material->node, path, NULL,
-                    "'%s' is missing in material '%s': elasticity '%s' needs it", law[i],
-                    material->name, elasticity->name);
-    if (!use && given)
+                    "'%s' is missing in material '%s': %s '%s' needs it", law[i], material->name,
+                    solver ? "solver" : "elasticity", caller->name);
+    /* A card serves several solvers: what one of them leaves aside is no mistake. */
+    if (!use && given && !solver)
       warn_value(reading, given, NULL,
                  "'%s' of material '%s' is not used: elasticity '%s' takes none", law[i],
-                 material->name, elasticity->name);
+                 material->name, caller->name);
   }
 }
 
@@ -134,7 +148,7 @@ static void parts_read(struct reading *reading, const struct tree *node, struct 
     instance_read(reading, part[i].kind, part[i].key, given, NULL, 0, part[i].instance);
   }
   reading->neighbours = 0;
-  if (!tree_get(node, "elasticity"))
+  if (!tree_get(node, "elasticity") && !own_caller(reading))
     elasticity_default(reading, material);
 }
 

@@ -34,14 +34,6 @@ static void body_names(struct reading *reading, const struct tree *root)
   reading->bodies = bodies->children;
 }
 
-static void uncertainty_check(struct reading *reading, const struct tree *root)
-{
-  static const char *const known[] = {"estimator", "correlation", "seed"};
-  const struct tree *node = tree_get(root, "uncertainty");
-  if (node && expect_mapping(reading, node, "'uncertainty'"))
-    expect_keys(reading, node, known, COUNT_OF(known), "'uncertainty'");
-}
-
 static void sections_read(struct reading *reading, struct scene *scene)
 {
   const struct tree *root = scene->tree, *title = tree_get(root, "title");
@@ -55,7 +47,7 @@ static void sections_read(struct reading *reading, struct scene *scene)
   material_needs(reading);
   quantities_read(reading, root);
   outputs_read(reading, root);
-  uncertainty_check(reading, root);
+  uncertainty_read(reading, root);
   bodies_check(reading);
   scene->random = reading->random;
 }
@@ -101,6 +93,7 @@ void scene_free(struct scene *scene)
   if (!scene)
     return;
   values_free(scene->solver.values);
+  values_free(scene->estimator.values);
   for (size_t i = 0; i < scene->materials; i++)
     clear_material(&scene->material[i]);
   for (size_t i = 0; i < scene->bodies; i++)

@@ -100,6 +100,7 @@ bool amount_read(struct reading *, const struct tree *, const char *name, const 
 double *vector_read(struct reading *, const struct tree *, const char *name, const char *unit,
                     size_t least, size_t most, size_t *count);
 bool table_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
+bool levels_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
 bool random_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
 /* Physical range: a fault; range of the fit: a warning. `node` null: a derived value. */
 bool range_check(struct reading *, const struct parameter *, const struct tree *, double value);
@@ -151,6 +152,9 @@ void effects_read(struct reading *, const struct tree *root);
 void quantities_read(struct reading *, const struct tree *root);
 bool reduction_read(struct reading *, const struct tree *, const char *unit, struct reduction *);
 void outputs_read(struct reading *, const struct tree *root);
+void uncertainty_read(struct reading *, const struct tree *root); /* last: lists what is random */
+/* The parameter behind `density` of a material. */
+const struct parameter *material_density(void);
 /* A field or component of one by name ("velocity", "velocity_y", "plastic_strain") that this scene
  * can have: unit, or null. `component`: only what is one number a point. */
 const char *field_unit(const struct reading *, const char *name, bool component);

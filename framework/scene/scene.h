@@ -12,7 +12,8 @@
  * x, y, z in SI metres]; further keys: body_parameters of the solver effects: {NAME: {model:,
  * enabled: auto|on|off, bodies: [..], materials: [..], ...}} quantities: {NAME: {measure:,
  * ARGUMENTS, body:, at:, reduce:, every:}} outputs: {every: 5 us, fields: [..]}    or {frames: 20}
- *   uncertainty: {...}                      kept for studies
+ *   uncertainty: {estimator: {model:, ...}, seed:, correlation: [[path, path, number], ..],
+ * failures: share}                        see study/study.h
  *
  * A real parameter may be random: {mean: 90 MPa, cv: 0.1} or {mean:, sd:, distribution:,
  * truncate:}; or {distribution: uniform, lower:, upper:}. A run without a study takes the mean and
@@ -42,6 +43,7 @@ struct value {
   size_t numbers;                /* VECTOR, or TABLE row by row (numbers = rows x columns) */
   struct expression *expression; /* EXPRESSION */
   struct gamut_values *group;    /* GROUP; never null for one */
+  const struct tree *levels;     /* LEVELS: the mapping of paths to lists */
 };
 
 /* The values of one plugin instance, in the order of the descriptor's parameters. Plugins see it as
@@ -145,6 +147,17 @@ struct quantity {
   const struct tree *node;
 };
 
+/* A random parameter: where it stands, its law, and the number that a draw sets. */
+struct random_parameter {
+  const char *path; /* "materials.copper.strength.A" */
+  const struct parameter *parameter;
+  const struct tree *node;
+  const struct distribution *distribution;
+  double *number;                      /* its mean until scene_draw */
+  struct values *values;               /* of its plugin; null: density */
+  const struct descriptor *descriptor; /* of what holds between them; null: nothing */
+};
+
 struct scene {
   const char *file; /* as given */
   const char *title;
@@ -162,11 +175,21 @@ struct scene {
   const char **output_field;
   size_t output_fields;
   bool random; /* some parameter is random */
+  struct random_parameter *random_parameter; /* in the order of the file */
+  size_t random_parameters;
+  /* of `uncertainty`; see study/study.h */
+  struct instance estimator; /* descriptor null: no study */
+  uint64_t seed;
+  double failures;     /* share of the runs of a study that may fail */
+  double *correlation; /* of the normal variables behind the random parameters, row by row, positive
+                          definite; null: independent */
 };
 
+/* From --set path=value, or a node of some scene, which is copied: faults then have its place. */
 struct scene_override {
   const char *path, *value;
-}; /* from --set path=value */
+  const struct tree *node; /* null: `value` is read */
+};
 
 /* Reads, merges, overrides and checks. All errors are collected. Blamed as GAMUT_SCENE; a plugin
  * that the scene names but that is broken as GAMUT_PLUGIN. Nothing is opened or run. */
@@ -185,6 +208,10 @@ void values_free(struct values *);
  */
 gamut_status values_set(struct values *, const struct descriptor *, size_t parameter, double real,
                         struct trace *);
+
+/* Gives every random parameter a value (one each, in order), derives what follows from them, checks
+ * ranges and constraints. GAMUT_SCENE where such a scene could not be. */
+gamut_status scene_draw(struct scene *, const double *value, struct trace *);
 
 /* JSON Schema of scenes, for editors, from the registry. */
 void schema_write(const struct registry *, FILE *);

@@ -99,6 +99,8 @@ static json_t *bare_schema(const struct parameter *parameter)
                    parameter->size_min, parameter->size_max);
   case VALUE_TABLE:
     return table(parameter);
+  case VALUE_LEVELS:
+    return named(json_pack("{s:s}", "type", "array"));
   case VALUE_GROUP:
     return object(parameters_schema(parameter->member, parameter->members, NULL), true);
   }
@@ -263,10 +265,11 @@ void schema_write(const struct registry *registry, FILE *file)
   json_t *outputs = object(json_pack("{s:o, s:{s:s}, s:o}", "every", reference("quantity"),
                                      "frames", "type", "integer", "fields", reference("names")),
                            true);
-  json_t *uncertainty = object(json_pack("{s:o, s:{s:s}, s:{s:s}}", "estimator",
-                                         plugin_schema(registry, GAMUT_KIND_ESTIMATOR, NULL),
-                                         "correlation", "type", "array", "seed", "type", "integer"),
-                               true);
+  json_t *uncertainty =
+      object(json_pack("{s:o, s:{s:s}, s:{s:s}, s:{s:s}}", "estimator",
+                       plugin_schema(registry, GAMUT_KIND_ESTIMATOR, NULL), "correlation", "type",
+                       "array", "seed", "type", "integer", "failures", "type", "number"),
+             true);
   json_t *properties =
       json_pack("{s:{s:i}, s:{s:s}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "gamut", "const", 1,
                 "title", "type", "string", "include", reference("names"), "solver",

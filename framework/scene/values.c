@@ -147,6 +147,8 @@ static bool value_read(struct reading *reading, const struct parameter *paramete
     return formula_read(reading, parameter, node, value);
   case VALUE_TABLE:
     return table_read(reading, parameter, node, value);
+  case VALUE_LEVELS:
+    return levels_read(reading, parameter, node, value);
   case VALUE_GROUP:
     return group_read(reading, parameter, node, path, false, value);
   }

@@ -1,0 +1,301 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "random/correlation.h"
+#include "scene/reading.h"
+
+/* ---- random parameters --------------------------------------------------------------------------
+ */
+
+/* All random values of a scene, then put in the order of the file. */
+struct collection {
+  struct random_parameter *item;
+  size_t count, room;
+};
+
+static void collect(struct collection *all, struct random_parameter found)
+{
+  if (all->count == all->room) {
+    size_t room = 2 * all->room + 16;
+    struct random_parameter *grown = scene_take(room, sizeof *grown);
+    if (all->count)
+      memcpy(grown, all->item, all->count * sizeof *grown);
+    free(all->item);
+    all->item = grown;
+    all->room = room;
+  }
+  all->item[all->count++] = found;
+}
+
+static void collect_values(struct collection *all, struct values *values, struct values *owner,
+                           const struct descriptor *descriptor)
+{
+  for (size_t i = 0; values && i < values->count; i++) {
+    struct value *value = &values->value[i];
+    if (value->random)
+      collect(all, (struct random_parameter){.parameter = value->parameter,
+                                             .node = value->node,
+                                             .distribution = value->random,
+                                             .number = &value->real,
+                                             .values = owner,
+                                             .descriptor = descriptor});
+    collect_values(all, value->group, owner, descriptor);
+  }
+}
+
+static void collect_instance(struct collection *all, const struct instance *instance)
+{
+  collect_values(all, instance->values, instance->values, instance->descriptor);
+}
+
+static void collect_scene(struct collection *all, struct scene *scene)
+{
+  collect_instance(all, &scene->solver);
+  for (size_t i = 0; i < scene->materials; i++) {
+    struct material *material = &scene->material[i];
+    if (material->density_random)
+      collect(all, (struct random_parameter){.parameter = material_density(),
+                                             .node = tree_get(material->node, "density"),
+                                             .distribution = material->density_random,
+                                             .number = &material->density});
+    collect_instance(all, &material->eos);
+    collect_instance(all, &material->strength);
+    collect_instance(all, &material->elasticity);
+    collect_values(all, material->extra, material->extra, NULL);
+  }
+  for (size_t i = 0; i < scene->bodies; i++)
+    collect_values(all, scene->body[i].solver_values, scene->body[i].solver_values, NULL);
+  for (size_t i = 0; i < scene->effects; i++)
+    collect_instance(all, &scene->effect[i].instance);
+  for (size_t i = 0; i < scene->quantities; i++)
+    collect_values(all, scene->quantity[i].arguments, scene->quantity[i].arguments, NULL);
+}
+
+static void put_in_order(struct reading *reading, const struct collection *all,
+                         const struct tree *node)
+{
+  struct scene *scene = reading->scene;
+  char path[PATH_SIZE];
+  for (size_t i = 0; i < all->count; i++) {
+    if (all->item[i].node != node)
+      continue;
+    struct random_parameter *next = &scene->random_parameter[scene->random_parameters++];
+    *next = all->item[i];
+    next->path = scene_text(reading, "%s", tree_path(node, path, sizeof path));
+  }
+  for (size_t i = 0; i < node->children; i++)
+    put_in_order(reading, all, node->child[i]);
+}
+
+static void random_parameters_read(struct reading *reading)
+{
+  struct scene *scene = reading->scene;
+  struct collection all = {0};
+  collect_scene(&all, scene);
+  scene->random_parameter = scene_keep(reading, all.count + 1, sizeof *scene->random_parameter);
+  put_in_order(reading, &all, scene->tree);
+  free(all.item);
+}
+
+static struct reading judge(struct trace *trace, const struct random_parameter *random)
+{
+  return (struct reading){.trace = trace, .here = random->node};
+}
+
+gamut_status scene_draw(struct scene *scene, const double *drawn, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  struct random_parameter *random = scene->random_parameter;
+  for (size_t i = 0; i < scene->random_parameters; i++) {
+    struct reading reading = judge(trace, &random[i]);
+    *random[i].number = drawn[i];
+    range_check(&reading, random[i].parameter, random[i].node, drawn[i]);
+    status = status ? status : reading.first;
+  }
+  /* What follows from them and what must hold between them, once a plugin. */
+  for (size_t i = 0; status == GAMUT_OK && i < scene->random_parameters; i++) {
+    char what[160];
+    struct reading reading = judge(trace, &random[i]);
+    const struct descriptor *descriptor = random[i].descriptor;
+    if (!descriptor || (i > 0 && random[i - 1].values == random[i].values))
+      continue;
+    snprintf(what, sizeof what, "%s '%s'", kind_name(descriptor->kind), descriptor->name);
+    values_check(&reading, random[i].values, descriptor, what);
+    status = reading.first;
+  }
+  return status;
+}
+
+/* ---- correlation --------------------------------------------------------------------------------
+ */
+
+static bool random_named(struct reading *reading, const struct tree *node, size_t *index)
+{
+  const struct scene *scene = reading->scene;
+  char expected[WORDS_SIZE];
+  const char *path = text_read(reading, node, "correlation");
+  if (!path)
+    return false;
+  const char **name = scene_take(scene->random_parameters, sizeof *name);
+  bool found = false;
+  for (size_t i = 0; i < scene->random_parameters; i++) {
+    name[i] = scene->random_parameter[i].path;
+    if (strcmp(name[i], path) != 0)
+      continue;
+    *index = i;
+    found = true;
+  }
+  if (!found)
+    blame_value(reading, node,
+                scene->random_parameters
+                    ? suggest(path, name, scene->random_parameters, expected, sizeof expected)
+                    : "give it a spread, such as {mean: 90 MPa, cv: 0.1}",
+                "'%.200s' is no random parameter of this scene", path);
+  free(name);
+  return found;
+}
+
+static bool row_read(struct reading *reading, const struct tree *row)
+{
+  struct scene *scene = reading->scene;
+  size_t n = scene->random_parameters, i, k;
+  double number;
+  if (row->kind != TREE_SEQUENCE || row->children != 3) {
+    blame_value(reading, row, "[path, path, number]", "this is no row of the correlation");
+    return false;
+  }
+  if (!random_named(reading, row->child[0], &i) || !random_named(reading, row->child[1], &k) ||
+      !amount_read(reading, row->child[2], "correlation", "1", &number))
+    return false;
+  if (i == k) {
+    blame_value(reading, row->child[1], "two different parameters",
+                "a parameter is always fully correlated with itself");
+    return false;
+  }
+  if (!(fabs(number) < 1)) {
+    blame_value(reading, row->child[2], "between -1 and 1, neither",
+                "%.6g is no correlation of two parameters", number);
+    return false;
+  }
+  if (scene->correlation[i * n + k] != 0) {
+    blame_value(reading, row, "one row for each pair", "this pair was given before");
+    return false;
+  }
+  scene->correlation[i * n + k] = scene->correlation[k * n + i] = number;
+  return true;
+}
+
+static void correlation_read(struct reading *reading, const struct tree *node)
+{
+  struct scene *scene = reading->scene;
+  size_t n = scene->random_parameters;
+  bool fine = true;
+  if (!node)
+    return;
+  if (node->kind != TREE_SEQUENCE) {
+    blame_value(reading, node, "[[path, path, number], ...]", "'correlation' is no list of rows");
+    return;
+  }
+  if (node->children == 0)
+    return;
+  scene->correlation = scene_keep(reading, n * n + 1, sizeof *scene->correlation);
+  for (size_t i = 0; i < node->children; i++)
+    fine = row_read(reading, node->child[i]) && fine;
+  for (size_t i = 0; i < n; i++)
+    scene->correlation[i * n + i] = 1;
+  if (!fine)
+    return;
+  double least = correlation_smallest(scene->correlation, n);
+  if (!(least > CORRELATION_LEAST))
+    blame_value(reading, node, "make some of them smaller",
+                "no random parameters have these correlations together: the smallest eigenvalue "
+                "of their matrix is %.3g, not above 0",
+                fabs(least) <= CORRELATION_LEAST ? 0.0 : least);
+}
+
+/* ---- the section --------------------------------------------------------------------------------
+ */
+
+static void seed_read(struct reading *reading, const struct tree *node)
+{
+  reading->scene->seed = 1;
+  if (!node)
+    return;
+  const char *text = node->kind == TREE_SCALAR && !node->quoted ? node->text : "";
+  size_t digits = strspn(text, "0123456789");
+  if (digits == 0 || digits > 18 || text[digits]) {
+    blame_value(reading, node, "a whole number from 0, of at most 18 digits",
+                "'seed' is no whole number");
+    return;
+  }
+  reading->scene->seed = strtoull(text, NULL, 10);
+}
+
+static void failures_read(struct reading *reading, const struct tree *node)
+{
+  reading->scene->failures = 0.1;
+  if (!node || !amount_read(reading, node, "failures", "1", &reading->scene->failures))
+    return;
+  if (!(reading->scene->failures >= 0 && reading->scene->failures < 1))
+    blame_value(reading, node, "at least 0 and less than 1",
+                "'failures' is the share of runs that may fail");
+}
+
+void uncertainty_read(struct reading *reading, const struct tree *root)
+{
+  static const char *const known[] = {"estimator", "correlation", "seed", "failures"};
+  const struct tree *node = tree_get(root, "uncertainty"), *estimator;
+  random_parameters_read(reading);
+  if (node && (!expect_mapping(reading, node, "'uncertainty'")))
+    node = NULL;
+  if (node)
+    expect_keys(reading, node, known, COUNT_OF(known), "'uncertainty'");
+  seed_read(reading, tree_get(node, "seed"));
+  failures_read(reading, tree_get(node, "failures"));
+  correlation_read(reading, tree_get(node, "correlation"));
+  estimator = tree_get(node, "estimator");
+  if (estimator)
+    instance_read(reading, GAMUT_KIND_ESTIMATOR, "estimator", estimator, NULL, 0,
+                  &reading->scene->estimator);
+}
+
+/* ---- levels -------------------------------------------------------------------------------------
+ */
+
+/* Keys of a scene that a level may change. */
+static bool may_vary(const char *path)
+{
+  static const char *const fixed[] = {"gamut", "title", "include", "uncertainty"};
+  for (size_t i = 0; i < COUNT_OF(fixed); i++) {
+    size_t length = strlen(fixed[i]);
+    if (strncmp(path, fixed[i], length) == 0 && (path[length] == 0 || path[length] == '.'))
+      return false;
+  }
+  return true;
+}
+
+bool levels_read(struct reading *reading, const struct parameter *parameter,
+                 const struct tree *node, struct value *value)
+{
+  bool fine = true;
+  value->levels = node;
+  if (node->kind != TREE_MAPPING || node->children == 0) {
+    blame_value(reading, node, "such as {solver.cell: [0.8 mm, 0.4 mm]}",
+                "'%s' is no mapping of scene paths to lists of values", parameter->name);
+    return false;
+  }
+  for (size_t i = 0; i < node->children; i++) {
+    const struct tree *list = node->child[i];
+    if (!may_vary(list->key)) {
+      blame_key(reading, list, "a path such as solver.cell", "'%.200s' cannot be varied",
+                list->key);
+      fine = false;
+    } else if (list->kind != TREE_SEQUENCE || list->children == 0) {
+      blame_value(reading, list, "[0.8 mm, 0.4 mm]; a vector is a list within the list",
+                  "'%.200s' is no list of values", list->key);
+      fine = false;
+    }
+  }
+  return fine;
+}
