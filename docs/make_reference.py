@@ -221,7 +221,6 @@ def argument_text(measure):
 
 
 def plugin(p):
-    name = p["plugin"].split("/")[1]
     print(f"### {p['plugin']}\n\n{p['summary'][0].upper() + p['summary'][1:]}.\n")
     given = {n for s in p["given"] for n in list(s["set"]) + list(s["then"])}
     parameters("", p["parameters"], given)
@@ -239,9 +238,7 @@ def plugin(p):
                for k, m in p["measures"].items()])
     if p["requires"]:
         print("Needs a solver that provides: " + ", ".join(p["requires"]) + ".\n")
-    print(f"Formula, limits and sources: `gamut show {p['plugin']}`"
-          + (f"; used as `model: {name}`" if p["plugin"].split("/")[0] != "solver" else "")
-          + ".\n")
+    print(f"Formula, limits and sources: `gamut show {p['plugin']}`.\n")
 
 
 def fields(plugins):
@@ -266,7 +263,7 @@ def write(gamut):
           "`docs/make_reference.py` from `gamut schema` and\n`gamut show`; the "
           "[manual](manual.md) explains, this page lists.\n")
     print("A number with a dimension carries its unit (`0.4 mm`, `190 m/s`, `383 J/(kg K)`); a pure "
-          "number carries\nnone. Ranges are in SI. \"-\" under default: may be left out.\n")
+          "number\ncarries none. Ranges are in SI. \"-\" under default: may be left out.\n")
     for title, _, rows in FRAME:
         print(f"## {title}\n")
         table(("key", "value", "meaning"), [(f"`{k}`", v, m) for k, v, m in rows])
@@ -288,7 +285,7 @@ def write(gamut):
             plugin(p)
     print("## Fields\n\nFor `outputs.fields`, and by component (`stress_xx`, `velocity_y`) as "
           "measures of a point; the\nelasticity's measures of points (`pressure`, `von_mises` ...) "
-          "may be outputs too. A field can be had where\nsome plugin of the scene keeps it.\n")
+          "may be outputs too. A field can be had\nwhere some plugin of the scene keeps it.\n")
     table(("field", "unit", "components"),
           [(f"`{k}`", u, c) for k, (u, c) in sorted(fields(plugins).items())])
 
