@@ -68,7 +68,7 @@ struct planes {
   size_t touches, touched_capacity;
   int32_t *of_line;      /* number of a touched node by its line, or -1 */
   size_t of_line_capacity;
-  double work;           /* by the planes on the matter in this step */
+  double work, loss;     /* by moving planes on the matter, and by impact and friction, in this step */
   double impulse[3], torque[3];
 };
 

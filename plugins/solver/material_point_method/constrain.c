@@ -145,36 +145,52 @@ static void rub(const struct plane *p, double *v, double mass, double normal_imp
     v[k] -= part * slip[k];
 }
 
+/* Component along the plane's normal of a velocity relative to the plane. */
+static double along_normal(const struct plane *p, const double v[3])
+{
+  double sum = 0.0;
+  for (int k = 0; k < 3; k++)
+    sum += (v[k] - p->given.velocity[k]) * p->given.normal[k];
+  return sum;
+}
+
+static double press_of(const struct plane *p, const double force[3], double step)
+{
+  double sum = 0.0;
+  for (int k = 0; k < 3; k++)
+    sum -= step * force[k] * p->given.normal[k];
+  return sum;
+}
+
+/* A velocity with what the plane forbids taken away. */
+static void fit(const struct plane *p, double v[3])
+{
+  const double into = along_normal(p, v);
+  for (int k = 0; k < 3; k++) {
+    const double n = p->given.normal[k], wall = p->given.velocity[k];
+    if (p->given.tangential_rule == GAMUT_PLANE_PRESCRIBED)
+      v[k] = wall + into * n;
+    if (p->given.normal_rule != GAMUT_PLANE_FREE)
+      v[k] -= into * n;
+  }
+}
+
 /* The condition at one node, on the velocity after the step, and on that before it unless matter just
  * arrives. True in contact. */
-static bool hold(const struct plane *p, double *line, double mass, const double force[3],
-                 double step, bool arrives)
+static bool hold(const struct plane *p, double *line, const double force[3], double step,
+                 bool arrives)
 {
-  const double *n = p->given.normal, *wall = p->given.velocity;
-  double *v = line + LINE_VELOCITY, *change = line + LINE_CHANGE, old[3], into = 0.0, was = 0.0;
-  double press = 0.0;
-  for (int k = 0; k < 3; k++) {
-    old[k] = v[k] - change[k];
-    into += (v[k] - wall[k]) * n[k];
-    was += (old[k] - wall[k]) * n[k];
-    press -= step * force[k] * n[k];
-  }
-  if (p->given.unilateral && into >= 0.0)
+  double *v = line + LINE_VELOCITY, *change = line + LINE_CHANGE, old[3];
+  const double press = press_of(p, force, step);
+  if (p->given.unilateral && (arrives ? along_normal(p, v) >= 0.0 : press < 0.0))
     return false;
-  if (p->given.normal_rule != GAMUT_PLANE_FREE)
-    for (int k = 0; k < 3; k++) {
-      v[k] -= into * n[k];
-      old[k] -= arrives ? 0.0 : was * n[k];
-    }
-  if (p->given.tangential_rule == GAMUT_PLANE_PRESCRIBED) {
-    const double out = (v[0] - wall[0]) * n[0] + (v[1] - wall[1]) * n[1] + (v[2] - wall[2]) * n[2];
-    for (int k = 0; k < 3; k++) {
-      v[k] = wall[k] + out * n[k];
-      old[k] = arrives ? old[k] : v[k];
-    }
-  } else if (p->given.friction > 0.0) {
-    rub(p, v, mass, press);
-  }
+  for (int k = 0; k < 3; k++)
+    old[k] = v[k] - change[k];
+  fit(p, v);
+  if (!arrives)
+    fit(p, old);
+  if (p->given.friction > 0.0)
+    rub(p, v, line[LINE_SHARE], press);
   for (int k = 0; k < 3; k++)
     change[k] = v[k] - old[k];
   return true;
@@ -264,8 +280,9 @@ static void book(struct model *m, double step)
       m->nodes.kinetic_before += 0.5 * t->mass * old * old;
       m->nodes.kinetic_after += 0.5 * t->mass * v * v;
       m->nodes.work += step * t->force[k] * mean;
-      ps->work += own * mean;
-      p->reaction->work += own * mean;
+      ps->work += own * p->given.velocity[k];
+      ps->loss += own * (p->given.velocity[k] - mean);
+      p->reaction->work += own * p->given.velocity[k];
       impulse[k] = own + m->pic * (t->mass * old - t->momentum[k]);
       after[k] = t->momentum[k] + t->mass * change;
       p->impulse[k] += impulse[k];
@@ -298,7 +315,7 @@ static gamut_status remember(struct model *m, struct plane *p)
 gamut_status planes_after_update(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
-  ps->work = 0.0;
+  ps->work = ps->loss = 0.0;
   memset(ps->impulse, 0, sizeof ps->impulse);
   memset(ps->torque, 0, sizeof ps->torque);
   for (size_t i = 0; i < ps->count; i++) {
@@ -312,7 +329,7 @@ gamut_status planes_after_update(struct model *m, double step)
       const bool arrives = (p->given.unilateral || p->moves) && !p->images &&
                            places_find(p->held, node->node) < 0;
       node->contact = line[LINE_SHARE] > m->grid.empty &&
-                      hold(p, line, line[LINE_SHARE], t->force, step, arrives);
+                      hold(p, line, t->force, step, arrives);
       if (!node->contact)
         continue;
       if (plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell)
@@ -367,17 +384,11 @@ void planes_before_second(struct model *m)
 void planes_after_second(struct model *m)
 {
   struct planes *ps = &m->planes;
-  static const double none[3] = {0.0, 0.0, 0.0};
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
-    for (size_t n = 0; n < p->nodes; n++) {
-      double *line = line_of(m, p->node[n].touched), keep[3];
-      if (line[LINE_SHARE] <= m->grid.empty)
-        continue;
-      memcpy(keep, line + LINE_CHANGE, sizeof keep);
-      hold(p, line, line[LINE_SHARE], none, 0.0, true);
-      memcpy(line + LINE_CHANGE, keep, sizeof keep);
-    }
+    for (size_t n = 0; n < p->nodes; n++)
+      if (p->node[n].contact)
+        fit(p, line_of(m, p->node[n].touched) + LINE_VELOCITY);
   }
   for (size_t i = ps->count; i-- > 0;) {
     struct plane *p = ps->plane[i];

@@ -1,7 +1,10 @@
 /* The ledger. Energy of the points goes to the grid in the scatter (and some is lost there), is worked
  * on at the nodes, and comes back in the gather (and some is lost there). Each of these is summed where
  * it happens and on its own, so that the balance is a check and not a definition. The remainder of the
- * stress update is what internal forces took from the grid and the material's energy does not show. */
+ * stress update is what internal forces took from the grid and the material's energy does not show.
+ *
+ * Momentum is stored as what goes forward and what goes backward, so that the balance of a body at rest as
+ * a whole has a scale to be measured by. */
 #include <string.h>
 
 #include "model.h"
@@ -32,7 +35,9 @@ static gamut_status open_motion(struct model *m, unsigned k)
   gamut_status status = GAMUT_OK;
   if (keeps_momentum(m, k)) {
     const char *a = momentum[k], *unit = "kg m/s";
-    status = line(m, a, "momentum", unit, GAMUT_STORED, &l->momentum[k]);
+    status = line(m, a, "forward", unit, GAMUT_STORED, &l->forward[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "backward", unit, GAMUT_STORED, &l->backward[k]);
     if (status == GAMUT_OK)
       status = line(m, a, "external forces", unit, GAMUT_SUPPLIED, &l->external_impulse[k]);
     if (status == GAMUT_OK)
@@ -42,7 +47,9 @@ static gamut_status open_motion(struct model *m, unsigned k)
   }
   if (keeps_spin(m, k) && status == GAMUT_OK) {
     const char *a = spin[k], *unit = "kg m2/s";
-    status = line(m, a, "angular momentum", unit, GAMUT_STORED, &l->spin[k]);
+    status = line(m, a, "forward", unit, GAMUT_STORED, &l->round[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "backward", unit, GAMUT_STORED, &l->back_round[k]);
     if (status == GAMUT_OK)
       status = line(m, a, "external forces", unit, GAMUT_SUPPLIED, &l->external_torque[k]);
     if (status == GAMUT_OK)
@@ -65,6 +72,7 @@ gamut_status ledger_open(struct model *m)
                {"energy", "internal", "J", GAMUT_STORED, &l->internal},
                {"energy", "external forces", "J", GAMUT_SUPPLIED, &l->external_work},
                {"energy", "planes", "J", GAMUT_SUPPLIED, &l->plane_work},
+               {"energy", "impact and friction at planes", "J", GAMUT_LOST, &l->impact_loss},
                {"energy", "scatter loss", "J", GAMUT_LOST, &l->scatter_loss},
                {"energy", "gather loss", "J", GAMUT_LOST, &l->gather_loss},
                {"energy", "stress remainder", "J", GAMUT_LOST, &l->remainder}};
@@ -91,10 +99,14 @@ static void show_stored(struct model *m)
   *l->kinetic = l->now[SUM_KINETIC];
   *l->internal = l->now[SUM_INTERNAL];
   for (unsigned k = 0; k < 3; k++) {
-    if (l->momentum[k] != NULL)
-      *l->momentum[k] = l->now[SUM_MOMENTUM + k];
-    if (l->spin[k] != NULL)
-      *l->spin[k] = l->now[SUM_SPIN + k];
+    if (l->forward[k] != NULL) {
+      *l->forward[k] = l->now[SUM_FORWARD + k];
+      *l->backward[k] = l->now[SUM_MOMENTUM + k] - l->now[SUM_FORWARD + k];
+    }
+    if (l->round[k] != NULL) {
+      *l->round[k] = l->now[SUM_ROUND + k];
+      *l->back_round[k] = l->now[SUM_SPIN + k] - l->now[SUM_ROUND + k];
+    }
   }
 }
 
@@ -115,16 +127,17 @@ void ledger_keep(struct model *m, double step)
   const double external = step * (was[SUM_POWER] + step * was[SUM_MOBILITY]);
   *l->external_work += external;
   *l->plane_work += m->planes.work;
+  *l->impact_loss += m->planes.loss;
   *l->scatter_loss += was[SUM_KINETIC] - m->nodes.kinetic_before;
   *l->gather_loss += m->nodes.kinetic_after - l->now[SUM_KINETIC];
   *l->remainder += external - m->nodes.work - (l->now[SUM_INTERNAL] - was[SUM_INTERNAL]);
   for (unsigned k = 0; k < 3; k++) {
-    if (l->momentum[k] != NULL) {
+    if (l->forward[k] != NULL) {
       *l->external_impulse[k] += step * was[SUM_FORCE + k];
       *l->plane_impulse[k] += m->planes.impulse[k];
       *l->empty_nodes[k] -= m->nodes.lost[k];
     }
-    if (l->spin[k] != NULL) {
+    if (l->round[k] != NULL) {
       *l->external_torque[k] += step * was[SUM_TORQUE + k];
       *l->plane_torque[k] += m->planes.torque[k];
       *l->spin_loss[k] += m->nodes.spin_after[k] - l->now[SUM_SPIN + k];

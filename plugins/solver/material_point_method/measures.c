@@ -38,9 +38,10 @@ static struct cloud cloud_of(const struct model *m, const struct gamut_body *wan
   return c;
 }
 
-static double half_size(const struct model *m, const struct cloud *c, size_t slot, int axis)
+/* Half the present size of a point over half its size at the start. */
+static double growth(const struct model *m, double ratio)
 {
-  return 0.5 * c->body->spacing[axis] * pow(c->ratio[slot], 1.0 / (double)m->dimension);
+  return m->dimension == 1 ? ratio : m->dimension == 2 ? sqrt(ratio) : cbrt(ratio);
 }
 
 /* From the lowest to the highest edge along an axis, of the points with lower <= x[along] <= upper. */
@@ -48,10 +49,15 @@ static bool span(const struct model *m, const struct cloud *c, int axis, int alo
                  double upper, double *low, double *high)
 {
   bool any = false;
+  const double start = 0.5 * c->body->spacing[axis];
   for (size_t i = 0; i < c->set->slots; i++) {
     if (c->set->id[i] < 0 || (along >= 0 && !(c->x[along][i] >= lower && c->x[along][i] <= upper)))
       continue;
-    const double half = half_size(m, c, i, axis), x = c->x[axis][i];
+    const double ratio = c->ratio[i], most = start * (ratio > 1.0 ? ratio : 1.0);
+    const double x = c->x[axis][i];
+    if (any && x - most >= *low && x + most <= *high)
+      continue; /* inside, without taking a root */
+    const double half = start * growth(m, ratio);
     *low = any && *low < x - half ? *low : x - half;
     *high = any && *high > x + half ? *high : x + half;
     any = true;

@@ -19,8 +19,10 @@ enum geometry { GEOMETRY_1D, GEOMETRY_PLANE_STRAIN, GEOMETRY_AXISYMMETRIC, GEOME
 enum point_sum {
   SUM_MASS,
   SUM_MOMENTUM,
-  SUM_SPIN = SUM_MOMENTUM + 3,   /* moment of momentum about the origin */
-  SUM_KINETIC = SUM_SPIN + 3,
+  SUM_FORWARD = SUM_MOMENTUM + 3, /* the positive parts of it */
+  SUM_SPIN = SUM_FORWARD + 3,     /* moment of momentum about the origin */
+  SUM_ROUND = SUM_SPIN + 3,       /* the positive parts of it */
+  SUM_KINETIC = SUM_ROUND + 3,
   SUM_INTERNAL,
   SUM_FORCE,                     /* external */
   SUM_TORQUE = SUM_FORCE + 3,
@@ -51,8 +53,8 @@ struct body {
 struct ledger {
   double now[POINT_SUMS];  /* sums over all points at the end of the last step */
   double *mass, *kinetic, *internal;
-  double *momentum[3], *spin[3];
-  double *external_work, *plane_work, *scatter_loss, *gather_loss, *remainder;
+  double *forward[3], *backward[3], *round[3], *back_round[3];
+  double *external_work, *plane_work, *impact_loss, *scatter_loss, *gather_loss, *remainder;
   double *external_impulse[3], *plane_impulse[3], *empty_nodes[3];
   double *external_torque[3], *plane_torque[3], *spin_loss[3];
 };

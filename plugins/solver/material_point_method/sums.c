@@ -15,12 +15,15 @@ void sums_motion(struct work *w, const struct point_view *p, const double *energ
       const double x = p->position[0][j], y = p->position[1][j], z = p->position[2][j];
       const double u = p->velocity[0][j], v = p->velocity[1][j], t = p->velocity[2][j];
       ADD(SUM_MASS, mass);
-      ADD(SUM_MOMENTUM, mass * u);
-      ADD(SUM_MOMENTUM + 1, mass * v);
-      ADD(SUM_MOMENTUM + 2, mass * t);
-      ADD(SUM_SPIN, mass * (y * t - z * v));
-      ADD(SUM_SPIN + 1, mass * (z * u - x * t));
-      ADD(SUM_SPIN + 2, mass * (x * v - y * u));
+      const double push[3] = {mass * u, mass * v, mass * t};
+      const double spin[3] = {y * push[2] - z * push[1], z * push[0] - x * push[2],
+                              x * push[1] - y * push[0]};
+      for (size_t k = 0; k < 3; k++) {
+        ADD(SUM_MOMENTUM + k, push[k]);
+        ADD(SUM_FORWARD + k, push[k] > 0.0 ? push[k] : 0.0);
+        ADD(SUM_SPIN + k, spin[k]);
+        ADD(SUM_ROUND + k, spin[k] > 0.0 ? spin[k] : 0.0);
+      }
       ADD(SUM_KINETIC, 0.5 * mass * (u * u + v * v + t * t));
       ADD(SUM_INTERNAL, mass * over * e[j]);
     }

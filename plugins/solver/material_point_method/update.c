@@ -68,14 +68,24 @@ static void update_block(struct model *m, size_t b, double step)
 {
   struct node_sums sums = {0};
   const struct node_block *block = &m->grid.block[b];
-  double *lines = m->grid.line + b * m->grid.block_nodes * LINE;
-  for (size_t i = 0; i < m->grid.block_nodes; i++) {
-    int32_t node[3];
-    double x[3];
-    grid_node(&m->grid, block, i, node);
-    for (unsigned k = 0; k < 3; k++)
-      x[k] = k < m->dimension ? m->grid.origin[k] + m->cell * node[k] : 0.0;
-    update_node(m, lines + i * LINE, x, step, &sums);
+  const int side = m->grid.side, nx = side, ny = m->dimension > 1 ? side : 1,
+            nz = m->dimension > 2 ? side : 1;
+  double *line = m->grid.line + b * m->grid.block_nodes * LINE, x[3] = {0.0, 0.0, 0.0};
+  double corner[3] = {0.0, 0.0, 0.0};
+  for (unsigned k = 0; k < m->dimension; k++)
+    corner[k] = m->grid.origin[k] + m->cell * (double)block->at[k] * side;
+  for (int k = 0; k < nz; k++) {
+    x[2] = corner[2] + m->cell * k;
+    for (int j = 0; j < ny; j++) {
+      x[1] = corner[1] + m->cell * j;
+      for (int i = 0; i < nx; i++, line += LINE) {
+        x[0] = corner[0] + m->cell * i;
+        if (line[LINE_MASS] > 0.0 || line[LINE_MARK] != 0.0)
+          update_node(m, line, x, step, &sums);
+        else
+          memset(line, 0, LINE * sizeof *line);
+      }
+    }
   }
   m->node_sum[b] = sums;
 }
