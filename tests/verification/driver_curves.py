@@ -4,7 +4,7 @@ from decimal import Decimal
 
 import scenes
 from laws import (ORACLES, apart, drive, eliminate, exact, evaluate, johnson_cook, linear_eos,
-                  material, rows, seconds)
+                  material, order, rows, seconds)
 
 EXACT = 1e-9
 BULK = 163.4572e9
@@ -86,10 +86,10 @@ def adiabatic(p, curves, card):
         for name, target, known in zip(("von_mises", "temperature"), targets,
                                        (table["sigma"], table["T"])):
             values = [g[name] for g in got]
-            orders.append(math.log2((values[-2] - target) / (values[-1] - target)))
+            orders.append(order(*values[-2:], target))
             limit = eliminate(values, [1, 1 + p["n"], 2, 2 + p["n"], 3])
             listed, own = max(listed, apart(limit, known)), max(own, apart(limit, target))
-    return max(abs(order - 1.0) for order in orders), listed, own
+    return max(abs(each - 1.0) for each in orders), listed, own
 
 
 def curves():
@@ -98,8 +98,8 @@ def curves():
         card = material(linear_eos(BULK), law(p), RIGID, p["rho"], p["cp"])
         scenes.below(f"{name}, isothermal curves at rates 1, 1e3, 1e5 and strains 0 to 1, relative",
                      isothermal(p, entry["curves"], card), EXACT)
-        order, listed, own = adiabatic(p, entry["curves"], card)
-        scenes.below(f"{name}, adiabatic, 8000 steps: order of convergence apart from 1", order,
+        off, listed, own = adiabatic(p, entry["curves"], card)
+        scenes.below(f"{name}, adiabatic, 8000 steps: order of convergence apart from 1", off,
                      0.02)
         scenes.below(f"{name}, adiabatic, extrapolated, against listed values (8 digits)", listed,
                      1e-8)

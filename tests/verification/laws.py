@@ -1,5 +1,6 @@
 """Reference formulas in 60-digit arithmetic, calls of gamut eval, scenes for the driver."""
 import json
+import math
 import os
 import subprocess
 from decimal import Decimal, getcontext
@@ -137,6 +138,12 @@ def drive(card, control, end, steps, history=(), final=(), adiabatic=False, temp
 
 
 # ---- orders -------------------------------------------------------------------------------------
+
+def order(coarse, fine, target):
+    """Order of convergence from the errors at a step and at its half; infinite if they swing."""
+    before, after = coarse - target, fine - target
+    return math.log2(before / after) if before * after > 0.0 else math.inf
+
 
 def eliminate(values, exponents):
     """Richardson: values at steps h, h/2, h/4, ..., errors in h to these powers."""
