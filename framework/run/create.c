@@ -5,6 +5,7 @@
 #include <omp.h>
 #endif
 
+#include "field/vocabulary.h"
 #include "run/inside.h"
 
 enum { CHUNK_BY_DEFAULT = 128 };
@@ -44,6 +45,8 @@ static gamut_status bind_materials(struct gamut_run *run)
 {
   gamut_status status = GAMUT_OK;
   struct scene *scene = run->scene;
+  if (scene->solver.descriptor->laws)
+    return GAMUT_OK; /* it calls the laws itself */
   for (size_t b = 0; b < scene->bodies; b++) {
     size_t m = scene->body[b].material;
     if (!run->material[m])
@@ -52,6 +55,20 @@ static gamut_status bind_materials(struct gamut_run *run)
   }
 done:
   return status;
+}
+
+/* Fields of the solver's own at points. */
+static gamut_status declare_outputs(struct gamut_run *run)
+{
+  const struct descriptor *d = run->scene->solver.descriptor;
+  for (size_t i = 0; i < d->outputs; i++) {
+    const struct field_use *use = &d->output[i];
+    if (!vocabulary_find(use->name) &&
+        !fields_add(run->fields, use->name, GAMUT_AT_POINT, use->components, use->unit, use->name,
+                    run->trace))
+      return GAMUT_PLUGIN;
+  }
+  return GAMUT_OK;
 }
 
 static gamut_status create_solver(struct gamut_run *run)
@@ -67,6 +84,7 @@ static gamut_status create_solver(struct gamut_run *run)
                         instance->descriptor->id);
     goto done;
   }
+  TRY(declare_outputs(run));
   TRY(ops->create(run, instance->values, &run->solver_self));
   run->solver = ops;
 done:
@@ -294,6 +312,7 @@ void run_free(struct gamut_run *run)
   effects_free(run);
   if (run->solver)
     run->solver->destroy(run->solver_self);
+  laws_free(run);
   observe_free(run);
   frames_free(run);
   ledger_free(run);

@@ -288,4 +288,8 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .step = host_step,
                                     .threads = host_threads,
                                     .chunk = host_chunk,
-                                    .body_volume = host_body_volume};
+                                    .body_volume = host_body_volume,
+                                    .law = host_law,
+                                    .law_array = host_law_array,
+                                    .law_call = host_law_call,
+                                    .law_message = host_law_message};

@@ -1,4 +1,4 @@
-/* The core's side of the table that plugins call, in two files: values, and the rest. */
+/* The core's side of the table that plugins call: values, laws of a solver's own, and the rest. */
 #ifndef GAMUT_RUN_HOST_H
 #define GAMUT_RUN_HOST_H
 
@@ -11,5 +11,11 @@ bool host_boolean(const struct gamut_values *, const char *path);
 const char *host_text(const struct gamut_values *, const char *path);
 const double *host_vector(const struct gamut_values *, const char *path, size_t *count);
 const double *host_table(const struct gamut_values *, const char *path, size_t *rows);
+
+gamut_status host_law(struct gamut_run *, const struct gamut_body *, const char *kind, size_t count,
+                      struct gamut_law **);
+double *host_law_array(struct gamut_law *, const char *name);
+bool host_law_call(struct gamut_law *, const char *operation, size_t count, int64_t *worst);
+const char *host_law_message(const struct gamut_law *, int64_t word);
 
 #endif

@@ -86,6 +86,7 @@ struct gamut_run {
   struct running_effect *creating;  /* the effect whose create runs, for messages */
   struct material_job **job;
   size_t jobs;
+  struct gamut_law *law;            /* laws of the solver's own, a list */
   struct lane_scratch **scratch;
   double **uniform;                 /* one a component */
   unsigned char *start_source;      /* where a chunk's tables lead while a run starts */
@@ -115,6 +116,9 @@ extern const struct gamut_host run_host;
 /* create.c */
 gamut_status run_add_task(struct gamut_run *, const char *owner, const struct gamut_task *,
                           size_t only_set, const bool *on_set);
+
+/* host_law.c */
+void laws_free(struct gamut_run *);
 
 /* effects.c */
 gamut_status effects_create(struct gamut_run *);
