@@ -32,8 +32,10 @@ def environment():
     """The shell's: gamut in the path, pkg-config knows it, a plugin folder of its own."""
     shell = dict(os.environ, XDG_DATA_HOME=os.path.join(scratch, "data"), OMP_NUM_THREADS="1",
                  PATH=os.path.dirname(GAMUT) + os.pathsep + os.environ["PATH"])
-    for name in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "GAMUT_PLUGIN_PATH", "GAMUT", "CFLAGS"):
+    for name in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "GAMUT_PLUGIN_PATH", "CFLAGS"):
         shell.pop(name, None)
+    if not os.environ.get("DESTDIR"):
+        shell.pop("GAMUT")  # pkg-config says where it is, but not where it was staged
     shell.setdefault("PYTHON", sys.executable)
     if INSTALLED:
         shell["PKG_CONFIG_SYSROOT_DIR"] = os.environ.get("DESTDIR", "")
