@@ -312,7 +312,7 @@ void run_free(struct gamut_run *run)
   effects_free(run);
   if (run->solver)
     run->solver->destroy(run->solver_self);
-  laws_free(run);
+  host_laws_free(run);
   observe_free(run);
   frames_free(run);
   ledger_free(run);

@@ -10,7 +10,7 @@ struct gamut_law {
   struct gamut_law *next;
 };
 
-void laws_free(struct gamut_run *run)
+void host_laws_free(struct gamut_run *run)
 {
   while (run->law) {
     struct gamut_law *law = run->law;

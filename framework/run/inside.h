@@ -118,7 +118,7 @@ gamut_status run_add_task(struct gamut_run *, const char *owner, const struct ga
                           size_t only_set, const bool *on_set);
 
 /* host_law.c */
-void laws_free(struct gamut_run *);
+void host_laws_free(struct gamut_run *);
 
 /* effects.c */
 gamut_status effects_create(struct gamut_run *);
