@@ -47,6 +47,21 @@ static const struct {
     {"measures", MEASURES},
 };
 
+/* Structs of the public headers: a plugin's block would be a second one of that name. */
+static bool is_public(const char *name)
+{
+  static const char *const tag[] = {
+      "batch", "body",  "chunk",  "eos_law",  "field",  "host",     "law",         "moments",
+      "plane", "plugin", "reaction", "run",   "run_head", "set",    "strength_law", "stream",
+      "study_shape", "task", "use", "values"};
+  if (strcmp(name, "gamut") == 0)
+    return true;
+  for (size_t i = 0; strncmp(name, "gamut_", 6) == 0 && i < LENGTH(tag); i++)
+    if (strcmp(name + 6, tag[i]) == 0)
+      return true;
+  return false;
+}
+
 /* "kind/name" */
 static bool read_identity(struct reader *reader, const struct tree *root)
 {
@@ -77,7 +92,7 @@ static bool read_identity(struct reader *reader, const struct tree *root)
     fault(reader, node, expected, "'%s' is no kind of plugin", kind);
     return false;
   }
-  if (is_reserved(d->name) || strncmp(d->name, "gamut", 5) == 0) {
+  if (is_reserved(d->name) || is_public(d->name)) {
     fault(reader, node, "another name", "a plugin cannot be called '%s'", d->name);
     return false;
   }
