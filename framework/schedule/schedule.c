@@ -79,7 +79,9 @@ static gamut_status find_phase(const struct schedule *schedule, const struct gam
   for (*phase = 0; *phase < schedule->phases; ++*phase)
     if (strcmp(schedule->phase[*phase], task->phase) == 0)
       return GAMUT_OK;
-  return trace_fail(trace, GAMUT_PLUGIN,
+  /* An effect may be right and yet not fit this solver: then the scene is wrong. */
+  bool of_effect = strncmp(owner, "effect ", 7) == 0;
+  return trace_fail(trace, of_effect ? GAMUT_SCENE : GAMUT_PLUGIN,
                     "task '%s' of %s belongs to the phase '%s', which this solver does not have",
                     task->name, owner, task->phase);
 }
