@@ -129,6 +129,24 @@ def own_stiffness():
     scenes.below("the same: lateral stress over axial stress", lateral, 1e-10)
 
 
+def scene_of_inputs():
+    """inputs/driver_johnson_cook.yaml as it stands, and at constant temperature."""
+    p = ORACLES["jc_curve"]["steel4340"]["params"]
+    for name, changes in (("adiabatic", {}), ("isothermal", {"effects.heat.enabled": "off"})):
+        run = scenes.run("driver_johnson_cook", changes)
+        times, strains = run.history("plastic_strain")
+        rate = (strains[-1] - strains[-2]) / (times[-1] - times[-2])
+        warm = run.history("temperature")[1][-1]
+        stress = run.value("final_stress")
+        scenes.below(f"driver_johnson_cook.yaml, {name}, {stress / 1e6:.1f} MPa, {warm:.1f} K: "
+                     "stress against the law at the last state (temperature of a step before)",
+                     apart(stress, flow_stress(p, strains[-1], rate, warm)), 2e-4)
+        scenes.below("the same: strain, relative", apart(run.history("strain")[1][-1], 0.5), EXACT)
+        scenes.below("the same: lateral stress over axial", run.value("lateral_stress") / stress,
+                     1e-10)
+        scenes.below("the same: ledger", run.residual(), 1e-10)
+
+
 # ---- radial return ------------------------------------------------------------------------------
 
 def pull_of(strain):
@@ -175,5 +193,6 @@ def radial_return():
 
 curves()
 own_stiffness()
+scene_of_inputs()
 radial_return()
 scenes.done()
