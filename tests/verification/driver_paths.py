@@ -165,10 +165,36 @@ def tables():
                  EXACT)
 
 
+def refused():
+    """Paths that no point can go: the component, or the place in the scene, is named."""
+    card = material(linear_eos(BULK), von_mises(YIELD), G)
+    free = {"yy": {"stress": "0 Pa"}, "zz": {"stress": "0 Pa"}}
+    fluid = material(linear_eos(BULK), None, 0.0)
+    cases = (
+        ("stress beyond flow", card, {"xx": {"stress": "900 MPa"}, **free}, 5, "stress xx of body"),
+        ("shear stress of a fluid", fluid, {"xy": {"stress": "1 MPa"}}, 5, "stress xy of body"),
+        ("strain and stress at once", card, {"xx": {"stress": "0 Pa", "log_strain": 0.1}}, 3,
+         "xx is controlled twice"),
+        ("mirror image moved twice", card, {"xy": {"stress": "0 Pa"}, "yx": {
+            "velocity_gradient": "1 1/s"}}, 3, "solver.control.yx"),
+        ("time that goes back", card, {"xx": {"stress": rows([(1, 0), (0, 0)], "Pa")}}, 3, "row 2"),
+        ("no control", card, {}, 3, "no component is controlled"),
+        ("no length left", card, {"xx": {"engineering_strain": -1}}, 3, "leaves no length"))
+    for name, metal, control, code, words in cases:
+        got, said = 0, ""
+        try:
+            drive(metal, control, 1.0, 4)
+        except scenes.Failed as failure:
+            got, said = failure.code, failure.said
+        scenes.report(got == code and words in said,
+                      f"{name}: exit {got} (due {code}), naming '{words}'", [said])
+
+
 elastic_shear()
 plastic_shear()
 uniaxial_stress()
 uniaxial_strain()
 rotation()
 tables()
+refused()
 scenes.done()
