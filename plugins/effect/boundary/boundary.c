@@ -23,13 +23,15 @@ static gamut_status pull(void *self, const struct gamut_chunk *chunk)
   const double *volume = gamut_begin(chunk, b->volume, 0), *ratio = gamut_end(chunk, b->ratio, 0);
   const double *x = gamut_end(chunk, b->position, 0), *y = gamut_end(chunk, b->position, 1),
                *z = gamut_end(chunk, b->position, 2);
-  const double *p = b->plane.point, *n = b->plane.normal;
+  const double *n = b->plane.normal, nx = n[0], ny = n[1], nz = n[2];
+  const double level = b->plane.point[0] * nx + b->plane.point[1] * ny + b->plane.point[2] * nz;
   for (int k = 0; k < 3; k++) {
     double *force = gamut_end(chunk, b->force, (unsigned)k);
-    const double each = b->traction[k] / b->depth;
+    const double depth = b->depth, each = b->traction[k] / depth;
     GAMUT_EACH (i, chunk) {
-      const double d = (x[i] - p[0]) * n[0] + (y[i] - p[1]) * n[1] + (z[i] - p[2]) * n[2];
-      force[i] += d >= 0.0 && d <= b->depth ? each * volume[i] * ratio[i] : 0.0;
+      const double d = x[i] * nx + y[i] * ny + z[i] * nz - level;
+      const double inside = (d >= 0.0 ? 1.0 : 0.0) * (d <= depth ? 1.0 : 0.0);
+      force[i] += inside * each * volume[i] * ratio[i];
     }
   }
   return GAMUT_OK;

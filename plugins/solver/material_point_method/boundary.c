@@ -18,6 +18,11 @@ double plane_distance(const struct plane *p, const double x[3], double time)
   return d - time * dot(p->given.velocity, p->given.normal);
 }
 
+double *touched_line(const struct model *m, int32_t touched)
+{
+  return touched < 0 ? NULL : m->grid.line + (size_t)m->planes.touched[touched].line * LINE;
+}
+
 gamut_status planes_add(struct model *m, const struct gamut_plane *given,
                         const struct gamut_reaction **reaction)
 {
@@ -26,9 +31,9 @@ gamut_status planes_add(struct model *m, const struct gamut_plane *given,
     return gamut_fail(m->run, GAMUT_SCENE, "more than %d planes", PLANES_MAX);
   for (unsigned k = m->dimension; k < 3; k++)
     if (fabs(given->normal[k]) > 1e-12)
-      return gamut_fail(m->run, GAMUT_SCENE,
-                        "the normal of a plane has a component along %c, which this geometry has not",
-                        "xyz"[k]);
+      return gamut_fail(
+          m->run, GAMUT_SCENE,
+          "the normal of a plane has a component along %c, which this geometry has not", "xyz"[k]);
   struct plane *p = gamut_allocate(m->run, "planes", sizeof *p);
   struct gamut_reaction *r = gamut_allocate(m->run, "planes", sizeof *r);
   if (p == NULL || r == NULL)
@@ -91,12 +96,13 @@ gamut_status planes_fix_origin(struct model *m)
       return gamut_fail(m->run, GAMUT_SCENE,
                         "planes at %c = %g m and %g m are %g cells apart, but planes must fall on "
                         "nodes; solver.cell = %.9g m does it",
-                        "xyz"[k], m->grid.origin[k], at, cells, apart / ceil(cells));
+                        "xyz"[k], m -> grid.origin[k], at, cells, apart / ceil(cells));
   }
   return GAMUT_OK;
 }
 
-/* ---- which nodes ------------------------------------------------------------------------------- */
+/* ---- which nodes -------------------------------------------------------------------------------
+ */
 
 /* An array with room for one more. */
 static gamut_status room(struct model *m, void **array, size_t item, size_t used, size_t *capacity)
@@ -121,7 +127,8 @@ static void node_place(const struct model *m, const int32_t node[3], double x[3]
     x[k] = k < m->dimension ? m->grid.origin[k] + m->cell * node[k] : 0.0;
 }
 
-/* The number of the touched node, entered for plane number `plane`; -1 where the grid has no node. */
+/* The number of the touched node, entered for plane number `plane`; -1 where the grid has no node.
+ */
 static gamut_status touch(struct model *m, const int32_t node[3], size_t plane, int32_t *number)
 {
   struct planes *ps = &m->planes;

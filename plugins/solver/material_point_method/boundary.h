@@ -1,11 +1,11 @@
 /* Planes: what walls, symmetry and prescribed velocities do to the grid.
  *
- * A plane at rest whose normal lies along an axis falls on a plane of nodes. With quadratic shapes it is
- * then made by images: matter behind it is the mirror image of the matter before it, so the sums of the
- * node one behind are added to those of the node one before (what is odd with its sign turned), and
- * after the update the node behind gets the image of the velocity. With linear shapes, for a plane that
- * moves along its normal and for an oblique one the condition holds node by node, at the nodes on or
- * behind the plane. */
+ * A plane at rest whose normal lies along an axis falls on a plane of nodes. With quadratic shapes
+ * it is then made by images: matter behind it is the mirror image of the matter before it, so the
+ * sums of the node one behind are added to those of the node one before (what is odd with its sign
+ * turned), and after the update the node behind gets the image of the velocity. With linear shapes,
+ * for a plane that moves along its normal and for an oblique one the condition holds node by node,
+ * at the nodes on or behind the plane. */
 #ifndef MATERIAL_POINT_METHOD_BOUNDARY_H
 #define MATERIAL_POINT_METHOD_BOUNDARY_H
 
@@ -48,10 +48,10 @@ struct touched {
 struct plane {
   struct gamut_plane given;
   struct gamut_reaction *reaction;
-  int axis, sign;        /* of the normal; axis -1: oblique */
+  int axis, sign; /* of the normal; axis -1: oblique */
   bool moves, images;
-  bool odd[3];           /* by component: the velocity's difference from the plane's turns its sign */
-  int32_t level;         /* node number of the plane along its axis */
+  bool odd[3];   /* by component: the velocity's difference from the plane's turns its sign */
+  int32_t level; /* node number of the plane along its axis */
   double impulse[3], area;
   struct column *column;
   size_t columns, column_capacity;
@@ -66,14 +66,13 @@ struct planes {
   bool any_moves;
   struct touched *touched;
   size_t touches, touched_capacity;
-  int32_t *of_line;      /* number of a touched node by its line, or -1 */
+  int32_t *of_line; /* number of a touched node by its line, or -1 */
   size_t of_line_capacity;
-  double work, loss;     /* by moving planes on the matter, and by impact and friction, in this step */
+  double work, loss; /* by moving planes on the matter, and by impact and friction, in this step */
   double impulse[3], torque[3];
 };
 
-gamut_status planes_add(struct model *, const struct gamut_plane *,
-                        const struct gamut_reaction **);
+gamut_status planes_add(struct model *, const struct gamut_plane *, const struct gamut_reaction **);
 void planes_destroy(struct model *);
 /* Puts the grid's origin so that planes fall on nodes; an error where that cannot be. */
 gamut_status planes_fix_origin(struct model *);
@@ -85,6 +84,12 @@ gamut_status planes_after_update(struct model *, double step);
 /* The same for the second pass of MUSL: momentum and mass, then velocity. */
 void planes_before_second(struct model *);
 void planes_after_second(struct model *);
+/* reaction.c: books impulses and work of the step, remembers contact. */
+gamut_status planes_book(struct model *, double step);
+/* Area of a plane that a node at x stands for. */
+double plane_node_area(const struct model *, const struct plane *, const double x[3]);
+/* Line of the touched node of that number; null for -1. */
+double *touched_line(const struct model *, int32_t touched);
 /* Signed distance of a place from a plane, positive where matter may be. */
 double plane_distance(const struct plane *, const double x[3], double time);
 

@@ -5,13 +5,8 @@
 #include "boundary.h"
 #include "model.h"
 
-static double *line_of(const struct model *m, int32_t touched)
-{
-  return touched < 0 ? NULL : m->grid.line + (size_t)m->planes.touched[touched].line * LINE;
-}
-
-/* Adds the image of the node behind to the node before. The mass is line[mass], the momentum begins at
- * `vector`; forces go along where there are any. */
+/* Adds the image of the node behind to the node before. The mass is line[mass], the momentum begins
+ * at `vector`; forces go along where there are any. */
 static void fold(const struct plane *p, double *const line[3], int mass, int vector, bool force)
 {
   double *before = line[BEFORE], *on = line[ON], *behind = line[BEHIND];
@@ -43,9 +38,9 @@ static bool presses(const struct plane *p, const double *line, double step)
 {
   double speed = 0.0;
   for (int k = 0; k < 3; k++)
-    speed += p->given.normal[k] * ((line[LINE_MOMENTUM + k] + step * line[LINE_FORCE + k]) /
-                                       line[LINE_MASS] -
-                                   p->given.velocity[k]);
+    speed += p->given.normal[k] *
+             ((line[LINE_MOMENTUM + k] + step * line[LINE_FORCE + k]) / line[LINE_MASS] -
+              p->given.velocity[k]);
   return speed < 0.0;
 }
 
@@ -64,8 +59,8 @@ static bool pressed(const struct plane *p, double *const line[3], double step)
       mass += behind[LINE_MASS];
       difference -= behind[LINE_MASS];
     }
-    const double force = before[LINE_FORCE + p->axis] -
-                         (behind != NULL ? behind[LINE_FORCE + p->axis] : 0.0);
+    const double force =
+        before[LINE_FORCE + p->axis] - (behind != NULL ? behind[LINE_FORCE + p->axis] : 0.0);
     if (mass > 0.0)
       impulse += step * p->given.normal[p->axis] * force * difference / mass;
   }
@@ -89,7 +84,7 @@ void planes_before_update(struct model *m)
   const double step = gamut_time_step(m->run);
   for (size_t i = 0; i < ps->touches; i++) {
     struct touched *t = &ps->touched[i];
-    double *line = line_of(m, (int32_t)i);
+    double *line = touched_line(m, (int32_t)i);
     t->mass = line[LINE_MASS];
     memcpy(t->momentum, line + LINE_MOMENTUM, sizeof t->momentum);
     memcpy(t->force, line + LINE_FORCE, sizeof t->force);
@@ -101,7 +96,7 @@ void planes_before_update(struct model *m)
       struct column *column = &p->column[c];
       double *line[3];
       for (int k = 0; k < 3; k++)
-        line[k] = line_of(m, column->touched[k]);
+        line[k] = touched_line(m, column->touched[k]);
       column->arrives = places_find(p->held, column->node) < 0;
       column->contact = in_contact(m, p, column, line, step);
       if (column->contact)
@@ -110,8 +105,8 @@ void planes_before_update(struct model *m)
   }
 }
 
-/* The image of the node before, at the node behind: the velocity at `vector`, its change where there is
- * one. */
+/* The image of the node before, at the node behind: the velocity at `vector`, its change where
+ * there is one. */
 static void unfold(const struct plane *p, double *const line[3], bool change)
 {
   if (line[BEHIND] == NULL || line[BEFORE] == NULL)
@@ -175,8 +170,8 @@ static void fit(const struct plane *p, double v[3])
   }
 }
 
-/* The condition at one node, on the velocity after the step, and on that before it unless matter just
- * arrives. True in contact. */
+/* The condition at one node, on the velocity after the step, and on that before it unless matter
+ * just arrives. True in contact. */
 static bool hold(const struct plane *p, double *line, const double force[3], double step,
                  bool arrives)
 {
@@ -196,9 +191,9 @@ static bool hold(const struct plane *p, double *line, const double force[3], dou
   return true;
 }
 
-/* Matter that arrives is stopped: the velocity before the step is what it was without the plane. At a
- * plane that always holds, only if the matter really flies at it; velocity that grows from the plane
- * on is in order. */
+/* Matter that arrives is stopped: the velocity before the step is what it was without the plane. At
+ * a plane that always holds, only if the matter really flies at it; velocity that grows from the
+ * plane on is in order. */
 static void stop_arrival(struct model *m, const struct plane *p, const struct column *c)
 {
   const struct touched *on = &m->planes.touched[c->touched[ON]];
@@ -215,7 +210,7 @@ static void stop_arrival(struct model *m, const struct plane *p, const struct co
         continue;
     }
     for (int n = BEFORE; n <= BEHIND; n++) {
-      double *line = line_of(m, c->touched[n]);
+      double *line = touched_line(m, c->touched[n]);
       if (line == NULL || !(m->planes.touched[c->touched[n]].mass > m->grid.empty))
         continue;
       const struct touched *t = &m->planes.touched[c->touched[n]];
@@ -224,38 +219,19 @@ static void stop_arrival(struct model *m, const struct plane *p, const struct co
   }
 }
 
-/* Area of a plane that a node stands for. */
-static double node_area(const struct model *m, const struct plane *p, const double x[3])
-{
-  const double h = m->cell, pi = 3.14159265358979323846;
-  switch (m->geometry) {
-  case GEOMETRY_1D:
-    return 1.0;
-  case GEOMETRY_PLANE_STRAIN:
-    return h;
-  case GEOMETRY_AXISYMMETRIC:
-    if (p->axis == 1 && fabs(x[0]) < 1e-6 * h)
-      return 0.25 * pi * h * h;
-    return 2.0 * pi * fabs(x[0]) * h;
-  case GEOMETRY_3D:
-    break;
-  }
-  return h * h;
-}
-
 static void column_friction(struct model *m, const struct plane *p, const struct column *c,
                             double step)
 {
   double normal = 0.0;
   for (int k = 0; k < 3; k++) {
-    const double *line = line_of(m, c->touched[k]);
+    const double *line = touched_line(m, c->touched[k]);
     if (line == NULL)
       continue;
     const struct touched *t = &m->planes.touched[c->touched[k]];
     for (int i = 0; i < 3; i++)
       normal += p->given.normal[i] * (t->mass * line[LINE_CHANGE + i] - step * t->force[i]);
   }
-  double *line = line_of(m, c->touched[ON]);
+  double *line = touched_line(m, c->touched[ON]);
   double before[3];
   memcpy(before, line + LINE_VELOCITY, sizeof before);
   rub(p, line + LINE_VELOCITY, line[LINE_SHARE], normal);
@@ -263,77 +239,23 @@ static void column_friction(struct model *m, const struct plane *p, const struct
     line[LINE_CHANGE + k] += line[LINE_VELOCITY + k] - before[k];
 }
 
-/* Books what planes did at the nodes they touch; these nodes are left out of the other sums. */
-static void book(struct model *m, double step)
-{
-  struct planes *ps = &m->planes;
-  for (size_t i = 0; i < ps->touches; i++) {
-    const struct touched *t = &ps->touched[i];
-    const double *line = line_of(m, (int32_t)i);
-    double impulse[3], after[3];
-    if (t->mass == 0.0)
-      continue;
-    for (int k = 0; k < 3; k++) {
-      const double v = line[LINE_VELOCITY + k], change = line[LINE_CHANGE + k], old = v - change;
-      const double mean = v - 0.5 * change, own = t->mass * change - step * t->force[k];
-      struct plane *p = ps->plane[t->owner[k]];
-      m->nodes.kinetic_before += 0.5 * t->mass * old * old;
-      m->nodes.kinetic_after += 0.5 * t->mass * v * v;
-      m->nodes.work += step * t->force[k] * mean;
-      ps->work += own * p->given.velocity[k];
-      ps->loss += own * (p->given.velocity[k] - mean);
-      p->reaction->work += own * p->given.velocity[k];
-      impulse[k] = own + m->pic * (t->mass * old - t->momentum[k]);
-      after[k] = t->momentum[k] + t->mass * change;
-      p->impulse[k] += impulse[k];
-      ps->impulse[k] += impulse[k];
-      m->nodes.speed = fmax(m->nodes.speed, fabs(v));
-    }
-    for (int k = 0; k < 3; k++) {
-      const int a = (k + 1) % 3, b = (k + 2) % 3;
-      ps->torque[k] += t->x[a] * (after[b] - t->momentum[b] - step * t->force[b]) -
-                       t->x[b] * (after[a] - t->momentum[a] - step * t->force[a]);
-      m->nodes.spin_after[k] += t->x[a] * after[b] - t->x[b] * after[a];
-    }
-  }
-}
-
-/* Remembers which nodes are in contact. */
-static gamut_status remember(struct model *m, struct plane *p)
-{
-  if (places_clear(m->run, &p->held, p->columns + p->nodes) != GAMUT_OK)
-    return GAMUT_INTERNAL;
-  for (size_t c = 0; c < p->columns; c++)
-    if (p->column[c].contact)
-      places_put(p->held, p->column[c].node, 1);
-  for (size_t n = 0; n < p->nodes; n++)
-    if (p->node[n].contact)
-      places_put(p->held, p->node[n].node, 1);
-  return GAMUT_OK;
-}
-
 gamut_status planes_after_update(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
-  ps->work = ps->loss = 0.0;
-  memset(ps->impulse, 0, sizeof ps->impulse);
-  memset(ps->torque, 0, sizeof ps->torque);
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
     p->area = 0.0;
-    memset(p->impulse, 0, sizeof p->impulse);
     for (size_t n = 0; n < p->nodes; n++) {
       struct held_node *node = &p->node[n];
       const struct touched *t = &ps->touched[node->touched];
-      double *line = line_of(m, node->touched);
-      const bool arrives = (p->given.unilateral || p->moves) && !p->images &&
-                           places_find(p->held, node->node) < 0;
-      node->contact = line[LINE_SHARE] > m->grid.empty &&
-                      hold(p, line, t->force, step, arrives);
+      double *line = touched_line(m, node->touched);
+      const bool arrives =
+          (p->given.unilateral || p->moves) && !p->images && places_find(p->held, node->node) < 0;
+      node->contact = line[LINE_SHARE] > m->grid.empty && hold(p, line, t->force, step, arrives);
       if (!node->contact)
         continue;
       if (plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell)
-        p->area += node_area(m, p, t->x);
+        p->area += plane_node_area(m, p, t->x);
     }
   }
   for (size_t i = ps->count; i-- > 0;) {
@@ -343,27 +265,16 @@ gamut_status planes_after_update(struct model *m, double step)
         continue;
       double *line[3];
       for (int k = 0; k < 3; k++)
-        line[k] = line_of(m, p->column[c].touched[k]);
+        line[k] = touched_line(m, p->column[c].touched[k]);
       unfold(p, line, true);
       if (p->column[c].arrives)
         stop_arrival(m, p, &p->column[c]);
       if (p->given.friction > 0.0)
         column_friction(m, p, &p->column[c], step);
-      p->area += node_area(m, p, ps->touched[p->column[c].touched[ON]].x);
+      p->area += plane_node_area(m, p, ps->touched[p->column[c].touched[ON]].x);
     }
   }
-  book(m, step);
-  for (size_t i = 0; i < ps->count; i++) {
-    struct plane *p = ps->plane[i];
-    for (int k = 0; k < 3; k++) {
-      p->reaction->force[k] = -p->impulse[k] / step;
-      p->reaction->impulse[k] -= p->impulse[k];
-    }
-    p->reaction->area = p->area;
-    if (remember(m, p) != GAMUT_OK)
-      return GAMUT_INTERNAL;
-  }
-  return GAMUT_OK;
+  return planes_book(m, step);
 }
 
 void planes_before_second(struct model *m)
@@ -374,7 +285,7 @@ void planes_before_second(struct model *m)
     for (size_t c = 0; c < p->columns; c++) {
       double *line[3];
       for (int k = 0; k < 3; k++)
-        line[k] = line_of(m, p->column[c].touched[k]);
+        line[k] = touched_line(m, p->column[c].touched[k]);
       if (p->column[c].contact)
         fold(p, line, LINE_SHARE, LINE_VELOCITY, false);
     }
@@ -388,14 +299,14 @@ void planes_after_second(struct model *m)
     struct plane *p = ps->plane[i];
     for (size_t n = 0; n < p->nodes; n++)
       if (p->node[n].contact)
-        fit(p, line_of(m, p->node[n].touched) + LINE_VELOCITY);
+        fit(p, touched_line(m, p->node[n].touched) + LINE_VELOCITY);
   }
   for (size_t i = ps->count; i-- > 0;) {
     struct plane *p = ps->plane[i];
     for (size_t c = 0; c < p->columns; c++) {
       double *line[3];
       for (int k = 0; k < 3; k++)
-        line[k] = line_of(m, p->column[c].touched[k]);
+        line[k] = touched_line(m, p->column[c].touched[k]);
       if (p->column[c].contact)
         unfold(p, line, false);
     }

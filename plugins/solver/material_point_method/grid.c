@@ -5,8 +5,8 @@
 
 /* Open addressing on a key made of three places of 21 bits each. */
 struct place_table {
-  size_t size;      /* a power of two */
-  uint64_t *key;    /* 0: free */
+  size_t size;   /* a power of two */
+  uint64_t *key; /* 0: free */
   int32_t *number;
 };
 
@@ -242,8 +242,8 @@ gamut_status grid_sources(struct grid *g, size_t sources)
   gamut_release(g->run, g->source);
   gamut_release(g->run, g->box);
   g->source = gamut_allocate(g->run, "grid", capacity * sizeof *g->source);
-  g->box = gamut_allocate(g->run, "boxes of blocks",
-                          capacity * g->tile_nodes * LINE * sizeof *g->box);
+  g->box =
+      gamut_allocate(g->run, "boxes of blocks", capacity * g->tile_nodes * LINE * sizeof *g->box);
   g->source_capacity = g->source != NULL && g->box != NULL ? capacity : 0;
   return g->source_capacity == 0 ? GAMUT_INTERNAL : GAMUT_OK;
 }

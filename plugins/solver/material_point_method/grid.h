@@ -1,9 +1,10 @@
-/* The background grid: sparse blocks of nodes, and the boxes of nodal sums that blocks of points leave.
+/* The background grid: sparse blocks of nodes, and the boxes of nodal sums that blocks of points
+ * leave.
  *
- * Space is cut into blocks of side^d cells. A block of points (of one body) adds its points into a tile
- * of its own, one cell wider than the block on each side so that points may wander between two sorts,
- * and leaves the part of the tile that it touched as a box. A block of nodes adds the boxes of its 3^d
- * neighbours in a fixed order, so no bit depends on threads. */
+ * Space is cut into blocks of side^d cells. A block of points (of one body) adds its points into a
+ * tile of its own, one cell wider than the block on each side so that points may wander between two
+ * sorts, and leaves the part of the tile that it touched as a box. A block of nodes adds the boxes
+ * of its 3^d neighbours in a fixed order, so no bit depends on threads. */
 #ifndef MATERIAL_POINT_METHOD_GRID_H
 #define MATERIAL_POINT_METHOD_GRID_H
 
@@ -19,21 +20,22 @@ enum {
 };
 /* A line after the sums ... */
 enum { LINE_MASS = 0, LINE_MOMENTUM = 1, LINE_FORCE = 4, LINE_MARK = 7 };
-/* ... and after the update. LINE_CHANGE is the step's change of velocity; in the second pass of MUSL the
- * first new velocity moves there, and LINE_VELOCITY is the re-projected one. */
+/* ... and after the update. LINE_CHANGE is the step's change of velocity; in the second pass of
+ * MUSL the first new velocity moves there, and LINE_VELOCITY is the re-projected one. */
 enum { LINE_VELOCITY = 0, LINE_CHANGE = 3, LINE_SHARE = 6 };
 
 struct node_block {
-  int32_t at[3];                 /* its place, in blocks */
-  int32_t neighbour[NEIGHBOURS]; /* number of the block there, or -1; x fastest, itself in the middle */
-  int32_t source;                /* first block of points here, or -1 */
+  int32_t at[3]; /* its place, in blocks */
+  int32_t
+      neighbour[NEIGHBOURS]; /* number of the block there, or -1; x fastest, itself in the middle */
+  int32_t source;            /* first block of points here, or -1 */
 };
 
 /* A block of points, seen from the grid. */
 struct source {
-  int32_t block;             /* the block of nodes at its place */
-  int32_t next;              /* next block of points at this place, or -1 */
-  int32_t lower[3], upper[3];/* nodes of the tile from lower to upper - 1 hold its sums */
+  int32_t block;              /* the block of nodes at its place */
+  int32_t next;               /* next block of points at this place, or -1 */
+  int32_t lower[3], upper[3]; /* nodes of the tile from lower to upper - 1 hold its sums */
 };
 
 /* From places (three whole numbers) to numbers. */
@@ -50,24 +52,24 @@ struct grid {
   unsigned dimension, order; /* order of the shape functions: 1 or 2 */
   int side, tile;            /* cells a block, nodes a tile, along each axis */
   size_t block_nodes, tile_nodes;
-  unsigned neighbours;       /* 3^d */
+  unsigned neighbours; /* 3^d */
   double cell, inverse_cell;
-  double origin[3];          /* a node */
-  double shift;              /* of the lowest node that a point touches, in cells */
-  double empty;              /* a node with no more mass than this takes no part */
+  double origin[3]; /* a node */
+  double shift;     /* of the lowest node that a point touches, in cells */
+  double empty;     /* a node with no more mass than this takes no part */
 
   size_t blocks, capacity;
   struct node_block *block;
-  double *line;              /* blocks * block_nodes * LINE */
+  double *line; /* blocks * block_nodes * LINE */
   struct place_table *table;
-  size_t spare_capacity;     /* what the last sort left, taken by the next */
+  size_t spare_capacity; /* what the last sort left, taken by the next */
   struct node_block *spare_block;
   double *spare_line;
   struct place_table *spare_table;
 
   size_t sources, source_capacity;
-  struct source *source;     /* in the order of chunk.serial */
-  double *box;               /* sources * tile_nodes * LINE */
+  struct source *source; /* in the order of chunk.serial */
+  double *box;           /* sources * tile_nodes * LINE */
 };
 
 gamut_status grid_create(struct grid *, struct gamut_run *, unsigned dimension, unsigned order,
@@ -84,8 +86,8 @@ static inline int32_t grid_block_of(const struct grid *g, int32_t cell)
   return q * g->side > cell ? q - 1 : q;
 }
 
-/* A new grid of blocks begins: grid_begin, then grid_block for each place of a block of points, then
- * grid_finish, which adds the neighbours and carries over the lines of places that stay. */
+/* A new grid of blocks begins: grid_begin, then grid_block for each place of a block of points,
+ * then grid_finish, which adds the neighbours and carries over the lines of places that stay. */
 gamut_status grid_begin(struct grid *);
 gamut_status grid_block(struct grid *, const int32_t at[3], int32_t *number);
 gamut_status grid_finish(struct grid *);

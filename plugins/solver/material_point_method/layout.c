@@ -1,6 +1,6 @@
-/* The points of the bodies. A body's points lie on a lattice of its own: the number of points along an
- * axis is that of points per cell, rounded so that the lattice fits the body's bounds exactly; a place
- * of the lattice inside the shape is a point. */
+/* The points of the bodies. A body's points lie on a lattice of its own: the number of points along
+ * an axis is that of points per cell, rounded so that the lattice fits the body's bounds exactly; a
+ * place of the lattice inside the shape is a point. */
 #include <math.h>
 
 #include "model.h"
@@ -100,7 +100,8 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
     b->points += m->host->body_contains(b->scene, x);
   } while (lattice_next(b, at));
   if (b->points == 0)
-    return gamut_fail_at(m->run, values, "cell", "a smaller cell", "body '%s' holds no point", name);
+    return gamut_fail_at(m->run, values, "cell", "a smaller cell", "body '%s' holds no point",
+                         name);
   return gamut_points(m->run, b->scene, b->points, &b->set);
 }
 
@@ -164,8 +165,7 @@ static double volume_correction(const struct model *m, const struct body *b, dou
   if (h->size < offsetof(struct gamut_host, body_volume) + sizeof h->body_volume ||
       h->body_volume == NULL)
     return 1.0;
-  const double exact =
-      h->body_volume(b->scene, m->dimension, m->geometry == GEOMETRY_AXISYMMETRIC);
+  const double exact = h->body_volume(b->scene, m->dimension, m->geometry == GEOMETRY_AXISYMMETRIC);
   return exact > 0.0 ? exact / volume : 1.0;
 }
 

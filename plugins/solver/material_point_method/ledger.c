@@ -1,10 +1,11 @@
-/* The ledger. Energy of the points goes to the grid in the scatter (and some is lost there), is worked
- * on at the nodes, and comes back in the gather (and some is lost there). Each of these is summed where
- * it happens and on its own, so that the balance is a check and not a definition. The remainder of the
- * stress update is what internal forces took from the grid and the material's energy does not show.
+/* The ledger. Energy of the points goes to the grid in the scatter (and some is lost there), is
+ * worked on at the nodes, and comes back in the gather (and some is lost there). Each of these is
+ * summed where it happens and on its own, so that the balance is a check and not a definition. The
+ * remainder of the stress update is what internal forces took from the grid and the material's
+ * energy does not show.
  *
- * Momentum is stored as what goes forward and what goes backward, so that the balance of a body at rest as
- * a whole has a scale to be measured by. */
+ * Momentum is stored as what goes forward and what goes backward, so that the balance of a body at
+ * rest as a whole has a scale to be measured by. */
 #include <string.h>
 
 #include "model.h"

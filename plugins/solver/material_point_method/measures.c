@@ -1,6 +1,6 @@
-/* Measures of bodies. A point stands for the matter around it: for half its spacing at the start, made
- * longer or shorter as the body is along that axis near the point, which is not known, so as the cube (in
- * two dimensions the square) root of its volume ratio tells. */
+/* Measures of bodies. A point stands for the matter around it: for half its spacing at the start,
+ * made longer or shorter as the body is along that axis near the point, which is not known, so as
+ * the cube (in two dimensions the square) root of its volume ratio tells. */
 #include <math.h>
 #include <string.h>
 
@@ -44,7 +44,8 @@ static double growth(const struct model *m, double ratio)
   return m->dimension == 1 ? ratio : m->dimension == 2 ? sqrt(ratio) : cbrt(ratio);
 }
 
-/* From the lowest to the highest edge along an axis, of the points with lower <= x[along] <= upper. */
+/* From the lowest to the highest edge along an axis, of the points with lower <= x[along] <= upper.
+ */
 static bool span(const struct model *m, const struct cloud *c, int axis, int along, double lower,
                  double upper, double *low, double *high)
 {
@@ -125,7 +126,8 @@ static gamut_status field_pointer(struct model *m, const struct cloud *c, const 
   return *value != NULL ? GAMUT_OK
                         : gamut_fail(m->run, GAMUT_SCENE,
                                      "the field '%s' is not kept in this scene, so it cannot be "
-                                     "measured; list it under outputs.fields", name);
+                                     "measured; list it under outputs.fields",
+                                     name);
 }
 
 static double sample(const struct cloud *c, const char *name, const double *field, size_t i)
@@ -137,7 +139,8 @@ static double sample(const struct cloud *c, const char *name, const double *fiel
 
 enum reduce { FRONT, MEAN, MAXIMUM };
 
-/* Highest place, along an axis, of a point whose field is beyond the level; mean by volume; maximum. */
+/* Highest place, along an axis, of a point whose field is beyond the level; mean by volume;
+ * maximum. */
 static gamut_status over_field(struct model *m, const struct cloud *c, enum reduce how,
                                const struct gamut_values *arguments, double *value)
 {

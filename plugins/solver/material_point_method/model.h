@@ -14,8 +14,8 @@
 
 enum geometry { GEOMETRY_1D, GEOMETRY_PLANE_STRAIN, GEOMETRY_AXISYMMETRIC, GEOMETRY_3D };
 
-/* Sums over the points of a block, one line of GAMUT_LANES partial sums each: lane = slot mod lanes, so
- * that the size of a chunk cannot matter. */
+/* Sums over the points of a block, one line of GAMUT_LANES partial sums each: lane = slot mod
+ * lanes, so that the size of a chunk cannot matter. */
 enum point_sum {
   SUM_MASS,
   SUM_MOMENTUM,
@@ -24,20 +24,20 @@ enum point_sum {
   SUM_ROUND = SUM_SPIN + 3,       /* the positive parts of it */
   SUM_KINETIC = SUM_ROUND + 3,
   SUM_INTERNAL,
-  SUM_FORCE,                     /* external */
+  SUM_FORCE, /* external */
   SUM_TORQUE = SUM_FORCE + 3,
-  SUM_POWER = SUM_TORQUE + 3,    /* external force times velocity */
-  SUM_MOBILITY,                  /* half the external force squared over the mass */
+  SUM_POWER = SUM_TORQUE + 3, /* external force times velocity */
+  SUM_MOBILITY,               /* half the external force squared over the mass */
   POINT_SUMS
 };
 
 /* Sums over nodes of one grid update. */
 struct node_sums {
   double kinetic_before, kinetic_after;
-  double work;         /* of all forces */
+  double work; /* of all forces */
   double spin_after[3];
-  double lost[3];      /* momentum at nodes that take no part */
-  double speed;        /* fastest component */
+  double lost[3]; /* momentum at nodes that take no part */
+  double speed;   /* fastest component */
 };
 
 struct body {
@@ -51,7 +51,7 @@ struct body {
 
 /* Lines of the ledger and the running totals behind them. */
 struct ledger {
-  double now[POINT_SUMS];  /* sums over all points at the end of the last step */
+  double now[POINT_SUMS]; /* sums over all points at the end of the last step */
   double *mass, *kinetic, *internal;
   double *forward[3], *backward[3], *round[3], *back_round[3];
   double *external_work, *plane_work, *impact_loss, *scatter_loss, *gather_loss, *remainder;
@@ -69,11 +69,11 @@ struct model {
   const struct gamut_host *host;
   enum geometry geometry;
   unsigned dimension, order;
-  bool second_pass;               /* MUSL: the gradient comes from momentum projected anew */
+  bool second_pass; /* MUSL: the gradient comes from momentum projected anew */
   double cell, pic, courant, fixed_step;
   bool bounded;
-  double lower[3], upper[3];      /* domain */
-  int points_per_cell;            /* by default, along one axis */
+  double lower[3], upper[3]; /* domain */
+  int points_per_cell;       /* by default, along one axis */
 
   struct fields field;
   struct body *body;
@@ -82,25 +82,25 @@ struct model {
   bool origin_fixed[3];
   struct planes planes;
   const struct transfer *transfer;
-  struct work **work;             /* one a thread */
+  struct work **work; /* one a thread */
   int threads;
 
-  double *block_sum;              /* POINT_SUMS a block of points */
-  double *block_omega;            /* largest omega squared of a block of points */
+  double *block_sum;   /* POINT_SUMS a block of points */
+  double *block_omega; /* largest omega squared of a block of points */
   size_t block_capacity;
-  struct node_sums *node_sum;     /* one a block of nodes */
+  struct node_sums *node_sum; /* one a block of nodes */
   size_t node_capacity;
-  struct node_sums nodes;         /* of the last update */
-  uint32_t *scratch_source;       /* for the sort */
+  struct node_sums nodes;   /* of the last update */
+  uint32_t *scratch_source; /* for the sort */
   int32_t *scratch_block, *scratch_count;
   uint16_t *scratch_cell;
   size_t scratch_capacity, scratch_blocks;
 
-  bool collected;                 /* the grid holds this step's sums already */
-  double moved;                   /* farthest that a point can have gone since the sort, cells */
-  double omega_squared;           /* largest of all points */
+  bool collected;       /* the grid holds this step's sums already */
+  double moved;         /* farthest that a point can have gone since the sort, cells */
+  double omega_squared; /* largest of all points */
   double last_step;
-  uint64_t taken;                 /* steps */
+  uint64_t taken; /* steps */
   struct ledger ledger;
 };
 

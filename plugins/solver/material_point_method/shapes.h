@@ -1,5 +1,6 @@
-/* Shape functions of one axis for eight points at once. x is 0 to 1 from the lowest node touched (for
- * the quadratic spline: from half a cell above it); weight[k] belongs to the node k above it. */
+/* Shape functions of one axis for eight points at once. x is 0 to 1 from the lowest node touched
+ * (for the quadratic spline: from half a cell above it); weight[k] belongs to the node k above it.
+ */
 #ifndef MATERIAL_POINT_METHOD_SHAPES_H
 #define MATERIAL_POINT_METHOD_SHAPES_H
 

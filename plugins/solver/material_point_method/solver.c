@@ -265,5 +265,4 @@ static gamut_status describe(void *self, double *step, char *text, size_t size)
 }
 
 GAMUT_SOLVER(material_point_method, .create = create, .destroy = destroy, .start = start,
-             .next = next, .after = after, .plane = plane, .measure = measure,
-             .describe = describe)
+             .next = next, .after = after, .plane = plane, .measure = measure, .describe = describe)

@@ -69,8 +69,7 @@ static gamut_status locate_set(struct model *m, const struct gamut_set *set, siz
       stride *= g->side;
     }
     if (number < 0 || memcmp(at, last, sizeof at) != 0) {
-      if (grid_block(g, at, &number) != GAMUT_OK ||
-          room_for_blocks(m, g->blocks) != GAMUT_OK)
+      if (grid_block(g, at, &number) != GAMUT_OK || room_for_blocks(m, g->blocks) != GAMUT_OK)
         return GAMUT_INTERNAL;
       memcpy(last, at, sizeof at);
     }

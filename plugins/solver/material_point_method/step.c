@@ -1,6 +1,6 @@
-/* One time step as tasks. The step is turned round so that it needs one sweep over the points: the grid
- * is updated from the boxes that the last sweep left, then each block of points is gathered, strained
- * and scattered while it is in cache. */
+/* One time step as tasks. The step is turned round so that it needs one sweep over the points: the
+ * grid is updated from the boxes that the last sweep left, then each block of points is gathered,
+ * strained and scattered while it is in cache. */
 #include <math.h>
 #include <string.h>
 #ifdef _OPENMP
@@ -18,7 +18,8 @@ static int thread_number(void)
 #endif
 }
 
-/* ---- blocks and chunks ------------------------------------------------------------------------- */
+/* ---- blocks and chunks -------------------------------------------------------------------------
+ */
 
 static gamut_status load_block(void *self, const struct gamut_chunk *chunk)
 {
@@ -98,12 +99,13 @@ static gamut_status find_stray(const struct model *m, const struct gamut_set *se
       if (at >= 0.0 && at < m->grid.side + 2)
         continue;
       const double place[3] = {x[0][i], x[1][i], x[2][i]}, speed[3] = {v[0][i], v[1][i], v[2][i]};
-      return point_failed((struct model *)m, set, slot + i, place, speed,
-                          isfinite(x[k][i]) && isfinite(v[k][i])
-                              ? "it went farther than a cell in a step or two: the time step is too "
-                                "long or the run is unstable"
-                              : "its position or velocity is not a number: the time step is too long "
-                                "or the material failed");
+      return point_failed(
+          (struct model *)m, set, slot + i, place, speed,
+          isfinite(x[k][i]) && isfinite(v[k][i])
+              ? "it went farther than a cell in a step or two: the time step is too "
+                "long or the run is unstable"
+              : "its position or velocity is not a number: the time step is too long "
+                "or the material failed");
     }
   return gamut_fail(m->run, GAMUT_INTERNAL, "a point left its block, but none is outside");
 }
@@ -126,7 +128,8 @@ static gamut_status check_domain(const struct model *m, const struct gamut_set *
   return GAMUT_OK;
 }
 
-/* ---- tasks of chunks --------------------------------------------------------------------------- */
+/* ---- tasks of chunks ---------------------------------------------------------------------------
+ */
 
 static void components(const struct gamut_chunk *chunk, struct gamut_field f, unsigned count,
                        bool end, const double **out)
@@ -231,7 +234,8 @@ static gamut_status bound_step(void *self, const struct gamut_chunk *chunk)
   return GAMUT_OK;
 }
 
-/* ---- scatter ----------------------------------------------------------------------------------- */
+/* ---- scatter -----------------------------------------------------------------------------------
+ */
 
 static gamut_status scatter_view(struct model *m, struct work *w, const struct gamut_set *set,
                                  size_t serial, size_t slot, struct point_view *view,
@@ -320,7 +324,8 @@ gamut_status step_first_scatter(struct model *m)
   return GAMUT_OK;
 }
 
-/* ---- registration ------------------------------------------------------------------------------ */
+/* ---- registration ------------------------------------------------------------------------------
+ */
 
 static gamut_status add(struct model *m, const char *name, const char *phase,
                         enum gamut_extent extent,
@@ -355,12 +360,11 @@ gamut_status step_register(struct model *m)
                                                   {"velocity", GAMUT_READ},
                                                   {"position", GAMUT_WRITE},
                                                   {"velocity_gradient", GAMUT_WRITE}};
-  static const struct gamut_use bound[] = {{"sound_speed", GAMUT_READ},
-                                           {"velocity", GAMUT_READ},
-                                           {"omega_squared", GAMUT_ADD}};
+  static const struct gamut_use bound[] = {
+      {"sound_speed", GAMUT_READ}, {"velocity", GAMUT_READ}, {"omega_squared", GAMUT_ADD}};
   static const struct gamut_use scatter[] = {
-      {"position", GAMUT_READ},     {"velocity", GAMUT_READ},       {"mass", GAMUT_READ_BEGIN},
-      {"volume_ratio", GAMUT_READ}, {"stress", GAMUT_READ},         {"energy", GAMUT_READ_IF},
+      {"position", GAMUT_READ},          {"velocity", GAMUT_READ},     {"mass", GAMUT_READ_BEGIN},
+      {"volume_ratio", GAMUT_READ},      {"stress", GAMUT_READ},       {"energy", GAMUT_READ_IF},
       {"external_force", GAMUT_READ_IF}, {"omega_squared", GAMUT_READ}};
   gamut_status status = add(m, "update grid", "grid", GAMUT_ONCE, step_update_grid, NULL, 0);
   if (status == GAMUT_OK && m->second_pass) {

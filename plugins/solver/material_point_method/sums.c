@@ -39,16 +39,14 @@ void sums_forces(struct work *w, const struct point_view *p)
       const size_t j = i + l;
       const double mass = p->mass[j], real = mass > 0.0 ? 1.0 : 0.0;
       const double x = p->position[0][j], y = p->position[1][j], z = p->position[2][j];
-      const double a = real * p->force[0][j], b = real * p->force[1][j],
-                   c = real * p->force[2][j];
+      const double a = real * p->force[0][j], b = real * p->force[1][j], c = real * p->force[2][j];
       ADD(SUM_FORCE, a);
       ADD(SUM_FORCE + 1, b);
       ADD(SUM_FORCE + 2, c);
       ADD(SUM_TORQUE, y * c - z * b);
       ADD(SUM_TORQUE + 1, z * a - x * c);
       ADD(SUM_TORQUE + 2, x * b - y * a);
-      ADD(SUM_POWER,
-          a * p->velocity[0][j] + b * p->velocity[1][j] + c * p->velocity[2][j]);
+      ADD(SUM_POWER, a * p->velocity[0][j] + b * p->velocity[1][j] + c * p->velocity[2][j]);
       ADD(SUM_MOBILITY, real * 0.5 * (a * a + b * b + c * c) / (mass > 0.0 ? mass : 1.0));
     }
   }

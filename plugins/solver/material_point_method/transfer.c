@@ -4,8 +4,8 @@
 #include "model.h"
 #include "shapes.h"
 
-/* A node's line as vectors of the width that the target has in registers: wider ones are taken apart
- * badly by the compiler. */
+/* A node's line as vectors of the width that the target has in registers: wider ones are taken
+ * apart badly by the compiler. */
 #if defined(__AVX512F__)
 enum { WIDTH = 8 };
 typedef double vector __attribute__((vector_size(64)));
@@ -24,7 +24,8 @@ struct line {
 
 #define INLINE static inline __attribute__((always_inline))
 
-/* The casts are to vectors of doubles, which alias arrays of doubles in GNU C only through may_alias. */
+/* The casts are to vectors of doubles, which alias arrays of doubles in GNU C only through
+ * may_alias. */
 typedef vector aliased __attribute__((may_alias));
 
 INLINE void line_clear(struct line *a)

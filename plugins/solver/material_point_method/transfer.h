@@ -1,5 +1,5 @@
-/* Transfers between the points of a block and the tile of nodes around it, one set of functions for each
- * dimension and order of the shape functions. */
+/* Transfers between the points of a block and the tile of nodes around it, one set of functions for
+ * each dimension and order of the shape functions. */
 #ifndef MATERIAL_POINT_METHOD_TRANSFER_H
 #define MATERIAL_POINT_METHOD_TRANSFER_H
 
@@ -13,17 +13,18 @@ enum { STRIDE = GAMUT_CHUNK_MAX + 24 }; /* no multiple of a page: arrays must no
 
 /* What one thread works on a block with. */
 struct work {
-  double place[3][STRIDE];  /* 0 to 1 from the lowest node that the point touches */
-  int32_t node[STRIDE];     /* number of that node in the tile */
-  double value[6][STRIDE];  /* gathered: velocity and its change */
-  double *tile;             /* nodes' lines, from the grid */
-  double *sums;             /* nodes' lines, to the grid; clear between blocks */
-  double *point_sum;        /* lanes of POINT_SUMS */
+  double place[3][STRIDE]; /* 0 to 1 from the lowest node that the point touches */
+  int32_t node[STRIDE];    /* number of that node in the tile */
+  double value[6][STRIDE]; /* gathered: velocity and its change */
+  double *tile;            /* nodes' lines, from the grid */
+  double *sums;            /* nodes' lines, to the grid; clear between blocks */
+  double *point_sum;       /* lanes of POINT_SUMS */
   double omega_squared;
-  int lower[3], upper[3];   /* nodes that were added to; empty between blocks */
+  int lower[3], upper[3]; /* nodes that were added to; empty between blocks */
 };
 
-/* Points as a transfer sees them; `count` is a multiple of GAMUT_LANES, `real` of them are no padding. */
+/* Points as a transfer sees them; `count` is a multiple of GAMUT_LANES, `real` of them are no
+ * padding. */
 struct point_view {
   size_t count, real;
   const double *position[3], *velocity[3], *mass, *volume_ratio, *stress[6];
@@ -36,7 +37,7 @@ struct locate {
   const double *position[3];
   size_t count;
   double inverse_cell;
-  double origin[3];       /* in cells: of the tile's node 0, shape's shift included */
+  double origin[3]; /* in cells: of the tile's node 0, shape's shift included */
 };
 
 struct transfer {

@@ -1,5 +1,5 @@
-/* The transfers for one DIMENSION (1 to 3) and ORDER (1 or 2). Included by transfer.c once for each; so
- * it has no guard, and takes its three macros away at the end.
+/* The transfers for one DIMENSION (1 to 3) and ORDER (1 or 2). Included by transfer.c once for
+ * each; so it has no guard, and takes its three macros away at the end.
  *
  * Points are taken one after the other, in the order of their slots: the lanes of a vector are the
  * quantities of a node's line. That is right in any order of points, and sums do not depend on how
@@ -63,7 +63,8 @@ INLINE void NAMED(weights)(const struct work *w, size_t i, double scale,
   }
 }
 
-#define WEIGHT(array, k, node, missing) (DIMENSION > (k) ? array[(k) < DIMENSION ? (k) : 0][node][l] : (missing))
+#define WEIGHT(array, k, node, missing)                                                            \
+  (DIMENSION > (k) ? array[(k) < DIMENSION ? (k) : 0][node][l] : (missing))
 
 /* Value and gradient of a whole line at one point. */
 INLINE void NAMED(interpolate)(const double *tile, double weight[DIMENSION][NODES][GAMUT_LANES],

@@ -1,0 +1,95 @@
+/* What planes did in a step: impulses, work, area, and which nodes they hold. */
+#include <math.h>
+#include <string.h>
+
+#include "boundary.h"
+#include "model.h"
+
+double plane_node_area(const struct model *m, const struct plane *p, const double x[3])
+{
+  const double h = m->cell, pi = 3.14159265358979323846;
+  switch (m->geometry) {
+  case GEOMETRY_1D:
+    return 1.0;
+  case GEOMETRY_PLANE_STRAIN:
+    return h;
+  case GEOMETRY_AXISYMMETRIC:
+    if (p->axis == 1 && fabs(x[0]) < 1e-6 * h)
+      return 0.25 * pi * h * h;
+    return 2.0 * pi * fabs(x[0]) * h;
+  case GEOMETRY_3D:
+    break;
+  }
+  return h * h;
+}
+
+/* Books what planes did at the nodes they touch; these nodes are left out of the other sums. */
+static void book_nodes(struct model *m, double step)
+{
+  struct planes *ps = &m->planes;
+  for (size_t i = 0; i < ps->touches; i++) {
+    const struct touched *t = &ps->touched[i];
+    const double *line = touched_line(m, (int32_t)i);
+    double impulse[3], after[3];
+    if (t->mass == 0.0)
+      continue;
+    for (int k = 0; k < 3; k++) {
+      const double v = line[LINE_VELOCITY + k], change = line[LINE_CHANGE + k], old = v - change;
+      const double mean = v - 0.5 * change, own = t->mass * change - step * t->force[k];
+      struct plane *p = ps->plane[t->owner[k]];
+      m->nodes.kinetic_before += 0.5 * t->mass * old * old;
+      m->nodes.kinetic_after += 0.5 * t->mass * v * v;
+      m->nodes.work += step * t->force[k] * mean;
+      ps->work += own * p->given.velocity[k];
+      ps->loss += own * (p->given.velocity[k] - mean);
+      p->reaction->work += own * p->given.velocity[k];
+      impulse[k] = own + m->pic * (t->mass * old - t->momentum[k]);
+      after[k] = t->momentum[k] + t->mass * change;
+      p->impulse[k] += impulse[k];
+      ps->impulse[k] += impulse[k];
+      m->nodes.speed = fmax(m->nodes.speed, fabs(v));
+    }
+    for (int k = 0; k < 3; k++) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      ps->torque[k] += t->x[a] * (after[b] - t->momentum[b] - step * t->force[b]) -
+                       t->x[b] * (after[a] - t->momentum[a] - step * t->force[a]);
+      m->nodes.spin_after[k] += t->x[a] * after[b] - t->x[b] * after[a];
+    }
+  }
+}
+
+/* Remembers which nodes are in contact. */
+static gamut_status remember(struct model *m, struct plane *p)
+{
+  if (places_clear(m->run, &p->held, p->columns + p->nodes) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  for (size_t c = 0; c < p->columns; c++)
+    if (p->column[c].contact)
+      places_put(p->held, p->column[c].node, 1);
+  for (size_t n = 0; n < p->nodes; n++)
+    if (p->node[n].contact)
+      places_put(p->held, p->node[n].node, 1);
+  return GAMUT_OK;
+}
+
+gamut_status planes_book(struct model *m, double step)
+{
+  struct planes *ps = &m->planes;
+  ps->work = ps->loss = 0.0;
+  memset(ps->impulse, 0, sizeof ps->impulse);
+  memset(ps->torque, 0, sizeof ps->torque);
+  for (size_t i = 0; i < ps->count; i++)
+    memset(ps->plane[i]->impulse, 0, sizeof ps->plane[i]->impulse);
+  book_nodes(m, step);
+  for (size_t i = 0; i < ps->count; i++) {
+    struct plane *p = ps->plane[i];
+    for (int k = 0; k < 3; k++) {
+      p->reaction->force[k] = -p->impulse[k] / step;
+      p->reaction->impulse[k] -= p->impulse[k];
+    }
+    p->reaction->area = p->area;
+    if (remember(m, p) != GAMUT_OK)
+      return GAMUT_INTERNAL;
+  }
+  return GAMUT_OK;
+}
