@@ -96,6 +96,12 @@ static struct entry *find(const struct registry *registry, const char *id)
   return NULL;
 }
 
+/* A second copy of the same plugin, as where a build tree and an installed gamut meet, is no news. */
+static bool same_edition(const struct descriptor *one, const struct descriptor *other)
+{
+  return strcmp(one->version, other->version) == 0 && strcmp(one->digest, other->digest) == 0;
+}
+
 gamut_status registry_sort(struct registry *registry, struct entry *first, struct trace *trace)
 {
   free(registry->usable);
@@ -112,7 +118,7 @@ gamut_status registry_sort(struct registry *registry, struct entry *first, struc
     entry->shadowed = find(registry, entry->descriptor->id);
     if (!entry->shadowed)
       registry->usable[registry->usables++] = entry;
-    else
+    else if (!same_edition(entry->descriptor, entry->shadowed->descriptor))
       trace_note(trace, "plugin %s of '%s' is shadowed by '%s'", entry->descriptor->id, entry->file,
                  entry->shadowed->file);
   }
