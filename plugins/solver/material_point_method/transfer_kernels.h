@@ -147,33 +147,52 @@ static void NAMED(gather_gradient)(struct work *w, size_t count, double inverse_
   }
 }
 
-/* Lines of eight points: what goes with N, and with its slopes by x, y and z. */
+/* Lines of eight points: what goes with N, and with its slopes by x, y and z. Entries that stay
+ * zero are not written. */
 INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
                            double out[DIMENSION + 1][GAMUT_LANES][LINE])
 {
-  for (size_t l = 0; l < GAMUT_LANES; l++) {
-    const size_t j = i + l;
-    const double m = p->mass[j];
-    out[0][l][LINE_MASS] = m;
-    for (int c = 0; c < 3; c++)
-      out[0][l][LINE_MOMENTUM + c] = c < DIMENSION ? m * p->velocity[c][j] : 0.0;
-    for (int c = LINE_FORCE; c < LINE; c++)
-      out[0][l][c] = 0.0;
-    if (!force)
-      continue;
-    const double minus_volume = -m * p->volume_ratio[j] / p->density;
-    for (int c = 0; c < DIMENSION; c++)
-      out[0][l][LINE_FORCE + c] = p->force[c] == NULL ? 0.0 : p->force[c][j];
-    if (DIMENSION == 2 && p->axisymmetric)
-      out[0][l][LINE_FORCE] += minus_volume * p->stress[2][j] / p->position[0][j];
-    static const int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
-    for (int k = 0; k < DIMENSION; k++) {
-      for (int c = 0; c < LINE; c++)
-        out[k + 1][l][c] = 0.0;
-      for (int c = 0; c < DIMENSION; c++)
-        out[k + 1][l][LINE_FORCE + c] = minus_volume * p->stress[component[c][k]][j];
-    }
+  double momentum[DIMENSION][GAMUT_LANES], outer[DIMENSION][GAMUT_LANES];
+  double inner[6][GAMUT_LANES];
+  const double *restrict mass = p->mass + i;
+  for (int c = 0; c < DIMENSION; c++) {
+    const double *restrict v = p->velocity[c] + i;
+#pragma omp simd
+    for (int l = 0; l < GAMUT_LANES; l++)
+      momentum[c][l] = mass[l] * v[l];
   }
+  for (int l = 0; l < GAMUT_LANES; l++) {
+    out[0][l][LINE_MASS] = mass[l];
+    for (int c = 0; c < DIMENSION; c++)
+      out[0][l][LINE_MOMENTUM + c] = momentum[c][l];
+  }
+  if (!force)
+    return;
+  static const int component[3][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}};
+  const double *restrict ratio = p->volume_ratio + i;
+  const double over = -1.0 / p->density;
+  double minus_volume[GAMUT_LANES];
+#pragma omp simd
+  for (int l = 0; l < GAMUT_LANES; l++)
+    minus_volume[l] = over * mass[l] * ratio[l];
+  for (int k = 0; k < 6; k++) {
+    const double *restrict stress = p->stress[k] + i;
+#pragma omp simd
+    for (int l = 0; l < GAMUT_LANES; l++)
+      inner[k][l] = minus_volume[l] * stress[l];
+  }
+  for (int c = 0; c < DIMENSION; c++)
+    for (int l = 0; l < GAMUT_LANES; l++)
+      outer[c][l] = p->force[c] == NULL ? 0.0 : p->force[c][i + (size_t)l];
+  if (DIMENSION == 2 && p->axisymmetric)
+    for (int l = 0; l < GAMUT_LANES; l++)
+      outer[0][l] += inner[2][l] / p->position[0][i + (size_t)l];
+  for (int l = 0; l < GAMUT_LANES; l++)
+    for (int c = 0; c < DIMENSION; c++) {
+      out[0][l][LINE_FORCE + c] = outer[c][l];
+      for (int k = 0; k < DIMENSION; k++)
+        out[k + 1][l][LINE_FORCE + c] = inner[component[c][k]][l];
+    }
 }
 
 INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LANES],
@@ -222,10 +241,10 @@ INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LA
 INLINE void NAMED(scatter_as)(struct work *w, const struct point_view *p, double inverse_cell,
                               bool force)
 {
+  double point[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64))) = {{{0.0}}};
   for (size_t i = 0; i < p->real; i += GAMUT_LANES) {
     double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
-    double point[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64)));
     const size_t here = p->real - i < GAMUT_LANES ? p->real - i : GAMUT_LANES;
     NAMED(weights)(w, i, inverse_cell, weight, slope);
     NAMED(prepare)(p, i, force, point);
