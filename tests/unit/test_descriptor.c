@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 #include "descriptor/descriptor.h"
 #include "field/vocabulary.h"
 

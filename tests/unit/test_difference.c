@@ -1,6 +1,6 @@
 /* Derivatives by differences: smooth functions, kinks, ends of a domain. */
 #include "conformance/difference.h"
-#include "tap.h"
+#include "tests/tap.h"
 
 static double smooth(void *self, double x, double y)
 {

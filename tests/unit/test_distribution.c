@@ -1,7 +1,7 @@
 /* Distributions: quantiles and probabilities agree, mean and deviation are the stated ones. */
 #include <math.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 #include "random/distribution.h"
 
 static void test_distributions(void)

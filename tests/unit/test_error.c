@@ -3,7 +3,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 
 static char *printed(struct trace *trace)
 {

@@ -3,7 +3,7 @@
 #include <locale.h>
 #include <stdlib.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 
 static const char *const names[] = {"x", "y", "T_melt", "e", "gamma-0", "C0"};
 static const double values[] = {2, 3, 1356, 0.5, 7, 3940};

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 
 enum { SAMPLES = 400000, LANES = 1024 };
 

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 #include "registry/registry.h"
 
 static struct units *units;

@@ -9,7 +9,7 @@
 
 #include <jansson.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 #include "scene/scene.h"
 
 static struct units *units;

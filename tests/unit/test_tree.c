@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 
 /* Reads text; *words is what was printed (to be freed). */
 static gamut_status parse(const char *text, size_t size, struct tree **root, char **words)

@@ -4,7 +4,7 @@
 #include <pthread.h>
 #include <stdlib.h>
 
-#include "../tap.h"
+#include "tests/tap.h"
 
 static void check(const struct units *units, const char *text, const char *unit, double expected)
 {
