@@ -16,10 +16,9 @@ struct registry;
  * beside the build tree's command when it runs in place, then the installed folder. Only absolute
  * folders that belong to the user, to root or to the owner of the running program, and that nobody
  * else may write; others are skipped with a warning (the build tree of the running program may be
- * shared with a group). The first of two plugins with one id wins; the
- * shadowed one is noted if it is another edition (version, interface). A
- * plugin whose YAML has faults is skipped with a warning; where a scene names it, its faults are
- * told.
+ * shared with a group). The first of two plugins with one id wins; the shadowed one is noted if it
+ * is another edition (version, interface). A plugin whose YAML has faults is skipped with a
+ * warning; where a scene names it, its faults are told.
  *
  * Below such a folder a plugin is KIND/NAME/NAME.yaml, NAME/NAME.yaml or NAME.yaml, with its shared
  * objects beside it or in .libs there. The build tree keeps the two apart: a file `plugins.path` in
