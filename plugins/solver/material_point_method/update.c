@@ -4,12 +4,13 @@
 
 #include "model.h"
 
-enum { BLOCK_NODES_MAX = 64 };
+/* Below so many blocks of nodes threads cost more than they give. */
+enum { BLOCK_NODES_MAX = 64, FEW_BLOCKS = 64 };
 
 void step_collect(struct model *m)
 {
   struct grid *g = &m->grid;
-#pragma omp parallel for schedule(static) num_threads(m->threads)
+#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < g->blocks; b++)
     grid_collect(g, &g->block[b], g->line + b * g->block_nodes * LINE);
 }
@@ -113,7 +114,7 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
     step_collect(m);
   m->collected = false;
   planes_before_update(m);
-#pragma omp parallel for schedule(static) num_threads(m->threads)
+#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     update_block(m, b, step);
   memset(&m->nodes, 0, sizeof m->nodes);
@@ -157,11 +158,11 @@ gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
 {
   (void)chunk;
   struct model *m = self;
-#pragma omp parallel for schedule(static) num_threads(m->threads)
+#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     second_block(m, b);
   planes_before_second(m);
-#pragma omp parallel for schedule(static) num_threads(m->threads)
+#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     divide_block(m, b);
   planes_after_second(m);
