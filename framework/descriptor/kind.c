@@ -31,7 +31,7 @@ const char *kind_operation(enum gamut_kind kind, size_t index)
       [GAMUT_KIND_STRENGTH] = {"flow_stress", "inverse", "derivatives"},
       [GAMUT_KIND_ELASTICITY] = {"stress", "start"},
       [GAMUT_KIND_EFFECT] = {"create", "destroy", "decline", "measure"},
-      [GAMUT_KIND_RANDOM_FIELD] = {"create", "destroy", "sample"},
+      [GAMUT_KIND_RANDOM_FIELD] = {"create", "destroy", "sample", "below"},
       [GAMUT_KIND_ESTIMATOR] = {"create", "destroy", "ask", "tell", "report", "save", "restore"},
       [GAMUT_KIND_SOLVER] = {"create", "destroy", "start", "next", "after", "plane", "measure",
                              "describe"},

@@ -48,6 +48,8 @@ static void fill(struct bench *bench, size_t slot)
   double value = 0.0;
   if (bench->kernel->uniform[slot])
     value = bench->kernel->uniform[slot][0];
+  else if (slot_varies(bench->kernel, slot))
+    value = kernel_mean(bench->kernel, slot);
   else if (s->kind == SLOT_STATE_BEGIN || s->kind == SLOT_STATE_END)
     value = bench->kernel->descriptor->state[s->index].initial;
   for (size_t i = 0; i < bench->stride; i++)

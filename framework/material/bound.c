@@ -54,7 +54,8 @@ static void drop_own_rows(const struct kernel *kernel, int role, struct links *l
   size_t kept = 0;
   for (size_t i = 0; i < links->count; i++) {
     const struct slot *slot = &kernel->slot[links->link[i].slot];
-    if (!is_argument(role, slot->name) && !is_result(role, slot))
+    bool argument = slot->kind == SLOT_INPUT && is_argument(role, slot->name);
+    if (!argument && !is_result(role, slot))
       links->link[kept++] = links->link[i];
   }
   links->count = kept;
@@ -92,6 +93,9 @@ static void collect_uses(struct bound_material *bound, int role)
   }
   for (size_t i = 0; role == ELASTICITY && i < d->outputs; i++)
     add_use(bound, d->output[i].name, GAMUT_WRITE);
+  for (size_t s = 0; s < bound->kernel[role]->slots; s++)
+    if (slot_varies(bound->kernel[role], s))
+      add_use(bound, bound->kernel[role]->path[s], GAMUT_READ_BEGIN);
 }
 
 static gamut_status make_kernel(struct bound_material *bound, int role,
@@ -325,6 +329,22 @@ void material_start(struct bound_material *bound, const struct gamut_chunk *chun
     start(seat->image);
 }
 
+/* Points the parameters of a law that have a random field at the values of a slot and its
+ * neighbours; whether there are any. */
+static bool follow_parameters(const struct law *law, const struct point_set *set, size_t slot)
+{
+  bool any = false;
+  for (size_t s = 0; law && s < law->kernel->slots; s++) {
+    const struct field *field =
+        slot_varies(law->kernel, s) ? fields_find(set->fields, law->kernel->path[s]) : NULL;
+    double *array = field ? set_stored(set, field->handle, 0) : NULL;
+    if (array)
+      law->image->pointer[s] = array + slot;
+    any = any || array;
+  }
+  return any;
+}
+
 /* Energy at which the eos gives the pressure at zero compression. */
 static gamut_status energy_of_pressure(struct bound_material *bound, const struct gamut_body *body,
                                        double *energy, struct trace *trace)
@@ -358,7 +378,9 @@ gamut_status material_initial(struct bound_material *bound, struct point_set *se
 {
   gamut_status status = GAMUT_OK;
   double energy = body->has_energy ? body->energy : 0.0;
-  if (body->has_pressure && body->pressure != 0.0)
+  bool sought = body->has_pressure && body->pressure != 0.0;
+  bool differs = sought && follow_parameters(bound->seat[0].law[EOS], set, 0);
+  if (sought)
     TRY(energy_of_pressure(bound, body, &energy, trace));
   const struct { const char *name; double value; } initial[] = {
       {"temperature", body->temperature}, {"energy", energy}};
@@ -367,6 +389,10 @@ gamut_status material_initial(struct bound_material *bound, struct point_set *se
     double *array = field ? set_stored(set, field->handle, 0) : NULL;
     for (size_t i = 0; array && i < set->open.slots; i++)
       array[i] = initial[f].value;
+    for (size_t i = 0; differs && f == 1 && array && i < set->open.slots; i++) {
+      follow_parameters(bound->seat[0].law[EOS], set, i);
+      TRY(energy_of_pressure(bound, body, &array[i], trace));
+    }
   }
 done:
   return status;

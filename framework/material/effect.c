@@ -69,6 +69,26 @@ static gamut_status collect_uses(const struct descriptor *d, const struct kernel
   return GAMUT_OK;
 }
 
+/* Parameters with a random field are read as fields, by whatever task. */
+static gamut_status add_paths(const struct bound_effect *bound, struct effect_task *task)
+{
+  for (size_t m = 0; m < bound->materials; m++)
+    for (size_t s = 0; s < bound->kernel[m]->slots; s++) {
+      const char *path = bound->kernel[m]->path[s];
+      bool known = path == NULL;
+      for (size_t u = 0; !known && u < task->uses; u++)
+        known = strcmp(task->use[u].field, path) == 0;
+      if (known)
+        continue;
+      struct gamut_use *grown = realloc(task->use, (task->uses + 1) * sizeof *grown);
+      if (!grown)
+        return GAMUT_INTERNAL;
+      task->use = grown;
+      task->use[task->uses++] = (struct gamut_use){path, GAMUT_READ_BEGIN};
+    }
+  return GAMUT_OK;
+}
+
 static gamut_status make_tasks(struct bound_effect *bound, struct fields *fields,
                                struct trace *trace)
 {
@@ -81,7 +101,8 @@ static gamut_status make_tasks(struct bound_effect *bound, struct fields *fields
   for (size_t t = 0; t < d->tasks; t++) {
     struct effect_task *task = &bound->task[t];
     task->links = calloc(bound->materials, sizeof *task->links);
-    if (!task->links || collect_uses(d, &d->task[t], task) != GAMUT_OK)
+    if (!task->links || collect_uses(d, &d->task[t], task) != GAMUT_OK ||
+        add_paths(bound, task) != GAMUT_OK)
       return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
     for (size_t m = 0; m < bound->materials; m++)
       TRY(links_new(bound->kernel[m], fields, trace, &task->links[m]));

@@ -28,10 +28,15 @@ void image_follow(struct image *image, const struct link *link, size_t links,
   }
 }
 
-struct field *slot_field(const struct descriptor *d, const struct slot *slot,
-                         struct fields *fields, struct trace *trace)
+struct field *slot_field(const struct kernel *kernel, size_t number, struct fields *fields,
+                         struct trace *trace)
 {
+  const struct descriptor *d = kernel->descriptor;
+  const struct slot *slot = &kernel->slot[number];
   const char *name = NULL, *unit = slot->unit, *meaning = "";
+  if (slot_varies(kernel, number))
+    return fields_add(fields, kernel->path[number], GAMUT_AT_POINT, 1, unit,
+                      "parameter with a random field", trace);
   if (slot->kind == SLOT_INPUT)
     name = d->input[slot->index].name;
   else if (slot->kind == SLOT_OUTPUT)
@@ -53,9 +58,16 @@ struct field *slot_field(const struct descriptor *d, const struct slot *slot,
   return field;
 }
 
+bool slot_varies(const struct kernel *kernel, size_t slot)
+{
+  return kernel->path[slot] != NULL;
+}
+
 static bool follows_chunk(const struct kernel *kernel, size_t slot)
 {
   switch (kernel->slot[slot].kind) {
+  case SLOT_PARAMETER:
+  case SLOT_MATERIAL_PARAMETER: return slot_varies(kernel, slot);
   case SLOT_INPUT: return !kernel->uniform[slot];
   case SLOT_OUTPUT:
   case SLOT_STATE_BEGIN:
@@ -75,13 +87,14 @@ gamut_status links_new(const struct kernel *kernel, struct fields *fields, struc
     const struct slot *slot = &kernel->slot[s];
     if (!follows_chunk(kernel, s))
       continue;
-    const struct field *field = slot_field(kernel->descriptor, slot, fields, trace);
+    const struct field *field = slot_field(kernel, s, fields, trace);
     if (!field)
       return GAMUT_PLUGIN;
     links->link[links->count++] =
         (struct link){.slot = s,
                       .component = field->handle.first + slot->component,
-                      .begin = slot->kind == SLOT_STATE_BEGIN || slot->kind == SLOT_INPUT,
+                      .begin = slot->kind == SLOT_STATE_BEGIN || slot->kind == SLOT_INPUT ||
+                               slot_varies(kernel, s),
                       .written = slot->kind == SLOT_OUTPUT || slot->kind == SLOT_STATE_END};
   }
   return GAMUT_OK;

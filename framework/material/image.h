@@ -30,12 +30,18 @@ struct kernel {
   struct slot *slot;
   size_t slots;
   struct arena *arena;
+  const struct values *extra; /* material parameters of plugins, or null */
   double **uniform; /* one a slot: array of equal values, or null */
+  char **path;      /* one a slot: scene path of a parameter with a random field, or null */
   kernel_function main;
   char variant[160];
 };
 
 struct image *image_new(const struct kernel *, struct arena *, size_t rows, const char *label);
+/* Whether a parameter differs from point to point: it then follows the chunk as a field does. */
+bool slot_varies(const struct kernel *, size_t slot);
+/* Its mean. */
+double kernel_mean(const struct kernel *, size_t slot);
 /* Points the linked slots at the chunk. zero and sink are arrays of the chunk's length. */
 void image_follow(struct image *, const struct link *, size_t links, const struct gamut_chunk *,
                   double *zero, double *sink);
@@ -47,9 +53,8 @@ struct links {
 };
 gamut_status links_new(const struct kernel *, struct fields *, struct trace *, struct links *);
 void links_free(struct links *);
-/* Declares the field of an input, output or state; null and a message on failure. */
-struct field *slot_field(const struct descriptor *, const struct slot *, struct fields *,
-                         struct trace *);
+/* Declares the field of a slot that follows the chunk; null and a message on failure. */
+struct field *slot_field(const struct kernel *, size_t slot, struct fields *, struct trace *);
 
 /* Counts of flagged points, one a thread and plugin. */
 enum { TALLY_MESSAGES = 64 };

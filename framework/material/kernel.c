@@ -34,9 +34,41 @@ kernel_function kernel_named(const struct kernel *kernel, const char *name)
   return NULL;
 }
 
-static bool variant_holds(const struct variant *variant, const struct descriptor *d,
-                          const struct values *values, bool *random)
+/* Parameters with a random field, and what follows from them, are fields of their own. */
+static bool name_paths(struct kernel *kernel, const struct values *values,
+                       const struct descriptor *descriptor, enum slot_kind kind)
 {
+  struct pointwise *points = pointwise_new(values, descriptor);
+  bool good = true;
+  for (size_t s = 0; points && s < kernel->slots; s++) {
+    if (kernel->slot[s].kind != kind)
+      continue;
+    for (size_t i = 0; good && i < values->count; i++) {
+      const char *name = values->value[i].parameter->name;
+      if (!pointwise_varies(points, i) || strcmp(name, kernel->slot[s].name) != 0)
+        continue;
+      size_t size = strlen(values->path) + strlen(name) + 2;
+      good = (kernel->path[s] = malloc(size)) != NULL;
+      if (good)
+        snprintf(kernel->path[s], size, "%s.%s", values->path, name);
+    }
+  }
+  pointwise_free(points);
+  return good;
+}
+
+static bool parameter_varies(const struct kernel *kernel, size_t parameter)
+{
+  for (size_t s = 0; s < kernel->slots; s++)
+    if (kernel->slot[s].kind == SLOT_PARAMETER && kernel->slot[s].index == parameter)
+      return slot_varies(kernel, s);
+  return false;
+}
+
+static bool variant_holds(const struct variant *variant, const struct kernel *kernel, bool *random)
+{
+  const struct descriptor *d = kernel->descriptor;
+  const struct values *values = kernel->instance->values;
   const char **name = calloc(d->parameters + 1, sizeof(*name));
   double *value = calloc(d->parameters + 1, sizeof *value);
   bool holds = false;
@@ -50,7 +82,7 @@ static bool variant_holds(const struct variant *variant, const struct descriptor
                                 : NULL;
   *random = false;
   for (size_t i = 0; when && i < d->parameters; i++)
-    *random |= expression_uses(when, i) && values->value[i].random;
+    *random |= expression_uses(when, i) && (values->value[i].random || parameter_varies(kernel, i));
   if (when)
     holds = expression_value(when, value) != 0.0;
   expression_free(when);
@@ -67,7 +99,7 @@ static void choose_variant(struct kernel *kernel)
   kernel->main = kernel_operation(kernel, 0);
   for (size_t i = 0; i < d->variants; i++) {
     bool random;
-    if (!variant_holds(&d->variant[i], d, kernel->instance->values, &random))
+    if (!variant_holds(&d->variant[i], kernel, &random))
       continue;
     if (random) {
       snprintf(kernel->variant, sizeof kernel->variant, "the whole formula: %s, but it is random",
@@ -114,7 +146,7 @@ static gamut_status fill_uniform(struct kernel *kernel, size_t size, const struc
   for (size_t s = 0; s < kernel->slots; s++) {
     bool uniform;
     double value = slot_value(kernel, &kernel->slot[s], extra, density, &uniform);
-    if (!uniform)
+    if (!uniform || slot_varies(kernel, s))
       continue;
     double *array = arena_take(kernel->arena, "parameters", size * sizeof *array);
     if (!array)
@@ -137,8 +169,16 @@ gamut_status kernel_new(const struct instance *instance, struct registry *regist
   kernel->instance = instance;
   kernel->descriptor = instance->descriptor;
   kernel->arena = arena;
+  kernel->extra = material_extra;
   TRY(registry_open(registry, instance->descriptor, trace, &kernel->plugin));
   kernel->slots = descriptor_layout(instance->descriptor, &kernel->slot);
+  kernel->path = calloc(kernel->slots + 1, sizeof(*kernel->path));
+  if (!kernel->path ||
+      !name_paths(kernel, instance->values, instance->descriptor, SLOT_PARAMETER) ||
+      !name_paths(kernel, material_extra, NULL, SLOT_MATERIAL_PARAMETER)) {
+    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
   choose_variant(kernel);
   if (fill_uniform(kernel, size, material_extra, density) != GAMUT_OK)
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
@@ -157,9 +197,18 @@ void kernel_free(struct kernel *kernel)
     return;
   for (size_t s = 0; kernel->uniform && s < kernel->slots; s++)
     arena_give(kernel->arena, kernel->uniform[s]);
+  for (size_t s = 0; kernel->path && s < kernel->slots; s++)
+    free(kernel->path[s]);
+  free(kernel->path);
   free(kernel->uniform);
   free(kernel->slot);
   free(kernel);
+}
+
+double kernel_mean(const struct kernel *kernel, size_t slot)
+{
+  bool uniform;
+  return slot_value(kernel, &kernel->slot[slot], kernel->extra, 0.0, &uniform);
 }
 
 const struct descriptor *kernel_descriptor(const struct kernel *kernel)

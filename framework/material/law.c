@@ -8,6 +8,8 @@ enum { SLACK = 24 };
 static bool has_row(const struct kernel *kernel, size_t slot)
 {
   switch (kernel->slot[slot].kind) {
+  case SLOT_PARAMETER:
+  case SLOT_MATERIAL_PARAMETER: return slot_varies(kernel, slot);
   case SLOT_INPUT: return !kernel->uniform[slot];
   case SLOT_OUTPUT:
   case SLOT_STATE_BEGIN:

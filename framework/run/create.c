@@ -29,6 +29,12 @@ static void attach_host(struct scene *scene)
   }
   for (size_t i = 0; i < scene->effects; i++)
     attach_values(scene->effect[i].instance.values);
+  for (size_t i = 0; i < scene->materials; i++) {
+    attach_values(scene->material[i].eos.values);
+    attach_values(scene->material[i].strength.values);
+    attach_values(scene->material[i].elasticity.values);
+    attach_values(scene->material[i].extra);
+  }
   for (size_t i = 0; i < scene->quantities; i++)
     attach_values(scene->quantity[i].arguments);
 }
@@ -249,6 +255,7 @@ static gamut_status assemble(struct gamut_run *run)
   gamut_status status;
   const struct descriptor *solver = run->scene->solver.descriptor;
   run->schedule = schedule_new(solver->phase, solver->phases);
+  TRY(chance_open(run));
   TRY(bind_materials(run));
   TRY(create_solver(run));
   TRY(check_sets(run));
@@ -320,6 +327,7 @@ void run_free(struct gamut_run *run)
     material_free(run->material[m]);
   for (size_t s = 0; run->set && s < run->scene->bodies; s++)
     set_free(run->set[s]);
+  chance_free(run);
   for (size_t i = 0; i < run->jobs; i++)
     free(run->job[i]);
   schedule_free(run->schedule);

@@ -19,6 +19,9 @@ static char **variable_names(const struct fields *fields, size_t count)
     name[k] = malloc(size);
     if (name[k])
       snprintf(name[k], size, "%s%s%s", field->name, *component ? "_" : "", component);
+    /* A scene path is no name that a formula can use. */
+    for (char *at = name[k]; at && *at; at++)
+      *at = *at == '.' || *at == '-' ? '_' : *at;
   }
   return name;
 }

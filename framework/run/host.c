@@ -167,6 +167,7 @@ static gamut_status host_start_material(struct gamut_run *run, struct gamut_set 
   struct point_set *set = set_inside(open);
   struct bound_material *material = run->material[set->material];
   struct gamut_chunk chunk = {.set = open};
+  TRY(chance_scatter(run, set));
   TRY(material_initial(material, set, &run->scene->body[open->index], run->trace));
   for (size_t slot = 0; slot < open->slots; slot += run->chunk) {
     size_t count = open->slots - slot < run->chunk ? open->slots - slot : run->chunk;
@@ -292,4 +293,8 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .law = host_law,
                                     .law_array = host_law_array,
                                     .law_call = host_law_call,
-                                    .law_message = host_law_message};
+                                    .law_message = host_law_message,
+                                    .stream = host_stream,
+                                    .realisation = host_realisation,
+                                    .sample = host_sample,
+                                    .domain = host_domain};

@@ -18,4 +18,11 @@ double *host_law_array(struct gamut_law *, const char *name);
 bool host_law_call(struct gamut_law *, const char *operation, size_t count, int64_t *worst);
 const char *host_law_message(const struct gamut_law *, int64_t word);
 
+struct gamut_stream host_stream(const struct gamut_run *, const char *name);
+uint64_t host_realisation(const struct gamut_run *);
+gamut_status host_sample(struct gamut_run *, const struct gamut_values *, const char *path,
+                         const char *name, size_t count, const double *const position[3],
+                         const int64_t *id, double *value, bool *given);
+bool host_domain(const struct gamut_run *, double lower[3], double upper[3]);
+
 #endif

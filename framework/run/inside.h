@@ -87,6 +87,7 @@ struct gamut_run {
   struct material_job **job;
   size_t jobs;
   struct gamut_law *law;            /* laws of the solver's own, a list */
+  struct chance *chance;            /* random fields that were asked for, a list */
   struct lane_scratch **scratch;
   double **uniform;                 /* one a component */
   unsigned char *start_source;      /* where a chunk's tables lead while a run starts */
@@ -119,6 +120,17 @@ gamut_status run_add_task(struct gamut_run *, const char *owner, const struct ga
 
 /* host_law.c */
 void host_laws_free(struct gamut_run *);
+
+/* host_chance.c */
+gamut_status chance_open(struct gamut_run *);
+void chance_free(struct gamut_run *);
+/* Draws the parameters that differ from point to point, at these points: number[k] is an array of
+ * parameter k's numbers, null where it does not differ. */
+gamut_status chance_draw(struct gamut_run *, const struct pointwise *, const struct values *,
+                         size_t count, const double *const position[3], const int64_t *id,
+                         double *const *number);
+/* Fills the stored fields of such parameters of a set's material and of effects. */
+gamut_status chance_scatter(struct gamut_run *, const struct point_set *);
 
 /* effects.c */
 gamut_status effects_create(struct gamut_run *);

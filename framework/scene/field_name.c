@@ -61,18 +61,42 @@ static void visit_plugin(struct search *search, const struct descriptor *descrip
             descriptor->output[i].unit);
 }
 
+/* Parameters with a random field are fields at points, under their scene path. */
+static void visit_parameters(struct search *search, const struct values *values,
+                             const struct descriptor *descriptor)
+{
+  char path[PATH_SIZE];
+  struct pointwise *points = pointwise_new(values, descriptor);
+  for (size_t i = 0; points && i < values->count; i++) {
+    if (!pointwise_varies(points, i))
+      continue;
+    snprintf(path, sizeof path, "%s.%s", values->path, values->parameter[i].name);
+    visit(search, search->wanted ? path : scene_text(search->reading, "%s", path), 1,
+          values->parameter[i].unit);
+  }
+  pointwise_free(points);
+}
+
+static void visit_instance(struct search *search, const struct instance *instance)
+{
+  visit_plugin(search, instance->descriptor);
+  if (instance->descriptor)
+    visit_parameters(search, instance->values, instance->descriptor);
+}
+
 static void visit_all(struct search *search, const struct scene *scene)
 {
   for (size_t i = 0; vocabulary_at(i); i++)
     if (vocabulary_at(i)->where == GAMUT_AT_POINT)
       visit(search, vocabulary_at(i)->name, vocabulary_at(i)->components, vocabulary_at(i)->unit);
   for (size_t i = 0; i < scene->materials; i++) {
-    visit_plugin(search, scene->material[i].eos.descriptor);
-    visit_plugin(search, scene->material[i].strength.descriptor);
-    visit_plugin(search, scene->material[i].elasticity.descriptor);
+    visit_instance(search, &scene->material[i].eos);
+    visit_instance(search, &scene->material[i].strength);
+    visit_instance(search, &scene->material[i].elasticity);
+    visit_parameters(search, scene->material[i].extra, NULL);
   }
   for (size_t i = 0; i < scene->effects; i++)
-    visit_plugin(search, scene->effect[i].instance.descriptor);
+    visit_instance(search, &scene->effect[i].instance);
   visit_plugin(search, scene->solver.descriptor);
 }
 

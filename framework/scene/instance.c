@@ -43,6 +43,29 @@ static void blame_model(struct reading *reading, enum gamut_kind kind, const str
   free(name);
 }
 
+/* Kernels get a parameter as an array; everybody else as one number. */
+static bool seen_by_kernels(const struct descriptor *descriptor)
+{
+  return descriptor->kind == GAMUT_KIND_EOS || descriptor->kind == GAMUT_KIND_STRENGTH ||
+         descriptor->kind == GAMUT_KIND_ELASTICITY ||
+         (descriptor->kind == GAMUT_KIND_EFFECT && descriptor->tasks > 0);
+}
+
+bool plugin_read(struct reading *reading, enum gamut_kind kind, const struct tree *node,
+                 struct value *value)
+{
+  struct instance instance;
+  size_t faults = reading->faults;
+  if (!reading->registry) {
+    blame_value(reading, node, "give it in a scene", "no plugin can be named here");
+    return false;
+  }
+  instance_read(reading, kind, kind_name(kind), node, NULL, 0, &instance);
+  value->model = instance.descriptor;
+  value->group = instance.values;
+  return reading->faults == faults;
+}
+
 void instance_read(struct reading *reading, enum gamut_kind kind, const char *name,
                    const struct tree *node, const char *const *also, size_t others,
                    struct instance *instance)
@@ -82,7 +105,8 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
                             what,
                             known,
                             others + 1,
-                            false};
+                            false,
+                            seen_by_kernels(descriptor)};
   instance->values = section_read(reading, &section);
   reading->here = here;
   free(known);

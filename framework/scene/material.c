@@ -88,7 +88,8 @@ static void elasticity_default(struct reading *reading, struct material *materia
                             .parameter = descriptor->parameter,
                             .count = descriptor->parameters,
                             .path = path,
-                            .what = "elasticity 'hypoelastic'"};
+                            .what = "elasticity 'hypoelastic'",
+                            .pointwise = true};
   material->elasticity = (struct instance){.name = "elasticity", .descriptor = descriptor};
   material->elasticity.values = section_read(reading, &section);
   reading->here = NULL;
@@ -170,7 +171,8 @@ static void material_read(struct reading *reading, const struct tree *node,
                             .path = path,
                             .what = what,
                             .also = own_keys,
-                            .others = COUNT_OF(own_keys)};
+                            .others = COUNT_OF(own_keys),
+                            .pointwise = true};
   material->extra = section_read(reading, &section);
   reading->neighbours = 0;
 

@@ -44,6 +44,7 @@ struct reading {
   bool axisymmetric;
   bool lost;   /* no solver or geometry was understood: axes are unknown */
   bool random; /* some value is random */
+  bool pointwise; /* what is read now may differ from point to point */
   size_t faults;
   gamut_status first; /* status of the first fault */
   struct neighbour neighbour[NEIGHBOURS_MAX];
@@ -101,6 +102,7 @@ double *vector_read(struct reading *, const struct tree *, const char *name, con
                     size_t least, size_t most, size_t *count);
 bool table_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
 bool levels_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
+bool plugin_read(struct reading *, enum gamut_kind, const struct tree *, struct value *);
 bool random_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
 /* Physical range: a fault; range of the fit: a warning. `node` null: a derived value. */
 bool range_check(struct reading *, const struct parameter *, const struct tree *, double value);
@@ -121,11 +123,14 @@ struct section {
   const char *const *also;
   size_t others;
   bool lenient; /* what is required may be absent */
+  bool pointwise; /* kernels see its numbers, so they may differ from point to point */
 };
 /* Never null. */
 struct values *section_read(struct reading *, const struct section *);
 /* Whether some given set speaks of the parameter: then it is not required by itself. */
 bool given_set_names(const struct descriptor *, const char *name);
+/* The given set that the values belong to; null if none or `descriptor` has no sets. */
+const struct given_set *given_set_chosen(const struct values *, const struct descriptor *);
 /* Chooses the given set, derives, checks ranges of what is derived, then the constraints. */
 void values_check(struct reading *, struct values *, const struct descriptor *, const char *what);
 

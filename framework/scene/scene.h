@@ -31,6 +31,12 @@
 #include "tree/tree.h"
 #include "unit/unit.h"
 
+/* A random parameter of a kernel may vary in space: {mean:, cv:, field: {model: karhunen_loeve, ...}}
+ * with a plugin of kind random_field. Every point then has a value of its own, whose distribution is
+ * the stated one; it is no parameter of a study, which sees another realisation of the field in each
+ * run. A run without a study takes realisation 0.
+ */
+
 /* One checked value. Which members count depends on parameter->type. */
 struct value {
   const struct parameter *parameter;
@@ -42,7 +48,8 @@ struct value {
   double *number;
   size_t numbers;                /* VECTOR, or TABLE row by row (numbers = rows x columns) */
   struct expression *expression; /* EXPRESSION */
-  struct gamut_values *group;    /* GROUP; never null for one */
+  struct gamut_values *group;    /* GROUP, never null for one; and of `model` */
+  const struct descriptor *model; /* PLUGIN, or the field of a random REAL; else null */
   const struct tree *levels;     /* LEVELS: the mapping of paths to lists */
 };
 
@@ -208,6 +215,17 @@ void values_free(struct values *);
  */
 gamut_status values_set(struct values *, const struct descriptor *, size_t parameter, double real,
                         struct trace *);
+
+/* Parameters of one plugin that differ from point to point: those with a random field, and those that
+ * follow from them. Null where there is none. `descriptor` of given sets and constraints, or null. */
+struct pointwise;
+struct pointwise *pointwise_new(const struct values *, const struct descriptor *);
+void pointwise_free(struct pointwise *); /* accepts null */
+bool pointwise_varies(const struct pointwise *, size_t index); /* accepts null */
+/* number[i] holds parameter i at one point, drawn where it has a field: derives the rest, checks
+ * ranges and constraints. False with the parameter to blame and the reason. */
+bool pointwise_work_out(const struct pointwise *, double *number, size_t *index, char *why,
+                        size_t size);
 
 /* Gives every random parameter a value (one each, in order), derives what follows from them, checks
  * ranges and constraints. GAMUT_SCENE where such a scene could not be. */

@@ -101,6 +101,8 @@ static json_t *bare_schema(const struct parameter *parameter)
     return table(parameter);
   case VALUE_LEVELS:
     return named(json_pack("{s:s}", "type", "array"));
+  case VALUE_PLUGIN:
+    return reference(kind_name(parameter->kind));
   case VALUE_GROUP:
     return object(parameters_schema(parameter->member, parameter->members, NULL), true);
   }
@@ -241,21 +243,23 @@ static json_t *quantity_schema(const struct registry *registry)
   return object(properties, true);
 }
 
-static json_t *definitions(void)
+static json_t *definitions(const struct registry *registry)
 {
   static const char *const kinds[] = DISTRIBUTION_NAMES;
   json_t *pure = json_pack("{s:[s, s]}", "type", "number", "string");
   json_t *value = json_pack("{s:[s, s]}", "type", "number", "string");
   json_t *random =
-      object(json_pack("{s:O, s:O, s:O, s:{s:o}, s:O, s:O, s:{s:[s, s]}}", "mean", value, "cv",
+      object(json_pack("{s:O, s:O, s:O, s:{s:o}, s:O, s:O, s:{s:[s, s]}, s:o}", "mean", value, "cv",
                        value, "sd", value, "distribution", "enum", words(kinds, COUNT_OF(kinds)),
-                       "lower", value, "upper", value, "truncate", "type", "boolean", "array"),
+                       "lower", value, "upper", value, "truncate", "type", "boolean", "array",
+                       "field", reference(kind_name(GAMUT_KIND_RANDOM_FIELD))),
              true);
   json_decref(value);
-  return json_pack("{s:o, s:o, s:o, s:o, s:o}", "number", pure, "quantity",
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "number", pure, "quantity",
                    json_pack("{s:s, s:s, s:[s]}", "type", "string", "pattern",
                              "^[-+]?[0-9.]+([eE][-+]?[0-9]+)? ", "examples", "0.4 mm"),
-                   "random", random, "place", list_of(reference("quantity"), 1, 3), "names",
+                   "random", random, kind_name(GAMUT_KIND_RANDOM_FIELD),
+                   plugin_schema(registry, GAMUT_KIND_RANDOM_FIELD, NULL), "place", list_of(reference("quantity"), 1, 3), "names",
                    json_pack("{s:[{s:s}, o]}", "anyOf", "type", "string",
                              list_of(json_pack("{s:s}", "type", "string"), 0, 0)));
 }
@@ -280,7 +284,7 @@ void schema_write(const struct registry *registry, FILE *file)
   json_t *schema = json_pack("{s:s, s:s, s:s, s:o, s:b, s:[s], s:o}", "$schema",
                              "https://json-schema.org/draft/2020-12/schema", "title", "gamut scene",
                              "type", "object", "properties", properties, "additionalProperties", 0,
-                             "required", "gamut", "$defs", definitions());
+                             "required", "gamut", "$defs", definitions(registry));
   json_dumpf(schema, file, JSON_INDENT(2));
   fputc('\n', file);
   json_decref(schema);

@@ -33,7 +33,7 @@ static void collect_values(struct collection *all, struct values *values, struct
 {
   for (size_t i = 0; values && i < values->count; i++) {
     struct value *value = &values->value[i];
-    if (value->random)
+    if (value->random && !value->model) /* a field is drawn by its own plugin */
       collect(all, (struct random_parameter){.parameter = value->parameter,
                                              .node = value->node,
                                              .distribution = value->random,

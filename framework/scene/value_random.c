@@ -6,7 +6,7 @@
 
 static const char *const kind_names[] = DISTRIBUTION_NAMES;
 static const char *const known_keys[] = {"mean",  "cv",    "sd",      "distribution",
-                                         "lower", "upper", "truncate"};
+                                         "lower", "upper", "truncate", "field"};
 
 static bool bounded(enum distribution_kind kind)
 {
@@ -223,6 +223,19 @@ static bool distribution_read(struct reading *reading, const struct parameter *p
   return agrees(reading, node, d) && truncate_read(reading, parameter, node, d);
 }
 
+static bool field_read(struct reading *reading, const struct parameter *parameter,
+                       const struct tree *node, struct value *value)
+{
+  if (!node)
+    return true;
+  if (reading->pointwise)
+    return plugin_read(reading, GAMUT_KIND_RANDOM_FIELD, node, value);
+  blame_key(reading, node, "leave 'field' out: then it is one random number",
+            "'%s' cannot vary in space: it is not given to kernels point by point",
+            parameter->name);
+  return false;
+}
+
 bool random_read(struct reading *reading, const struct parameter *parameter,
                  const struct tree *node, struct value *value)
 {
@@ -236,7 +249,8 @@ bool random_read(struct reading *reading, const struct parameter *parameter,
   size_t faults = reading->faults;
   snprintf(what, sizeof what, "the random '%s'", parameter->name);
   expect_keys(reading, node, known_keys, COUNT_OF(known_keys), what);
-  if (reading->faults > faults || !distribution_read(reading, parameter, node, &d))
+  if (reading->faults > faults || !distribution_read(reading, parameter, node, &d) ||
+      !field_read(reading, parameter, tree_get(node, "field"), value))
     return false;
   const struct tree *mean = tree_get(node, "mean");
   if (!range_check(reading, parameter, mean ? mean : node, d.mean))
@@ -250,6 +264,6 @@ bool random_read(struct reading *reading, const struct parameter *parameter,
   value->random = scene_take(1, sizeof *value->random);
   *value->random = d;
   value->real = d.mean;
-  reading->random = true;
+  reading->random = reading->random || !value->model;
   return true;
 }

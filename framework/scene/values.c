@@ -149,6 +149,8 @@ static bool value_read(struct reading *reading, const struct parameter *paramete
     return table_read(reading, parameter, node, value);
   case VALUE_LEVELS:
     return levels_read(reading, parameter, node, value);
+  case VALUE_PLUGIN:
+    return plugin_read(reading, parameter->kind, node, value);
   case VALUE_GROUP:
     return group_read(reading, parameter, node, path, false, value);
   }
@@ -225,6 +227,7 @@ static void parameter_read(struct reading *reading, const struct section *sectio
 struct values *section_read(struct reading *reading, const struct section *section)
 {
   struct values *values = scene_take(1, sizeof *values);
+  bool outside = reading->pointwise;
   values->parameter = section->parameter;
   values->count = section->count;
   values->value = scene_take(section->count, sizeof *values->value);
@@ -238,8 +241,11 @@ struct values *section_read(struct reading *reading, const struct section *secti
       blame_unknown(reading, child, section->parameter, section->count, section->also,
                     section->others, section->what);
   }
-  for (size_t i = 0; i < section->count; i++)
+  for (size_t i = 0; i < section->count; i++) {
+    reading->pointwise = section->pointwise;
     parameter_read(reading, section, &section->parameter[i], &values->value[i]);
+  }
+  reading->pointwise = outside;
   if (section->descriptor)
     values_check(reading, values, section->descriptor, section->what);
   return values;
@@ -261,7 +267,7 @@ gamut_status values_read(const struct descriptor *descriptor, const struct param
   if (node && !expect_mapping(&reading, node, what))
     return GAMUT_SCENE;
   struct section section = {
-      own ? descriptor : NULL, parameter, count, node, path, what, also, others, false};
+      own ? descriptor : NULL, parameter, count, node, path, what, also, others, false, false};
   *values = section_read(&reading, &section);
   if (reading.faults) {
     values_free(*values);

@@ -10,7 +10,7 @@ static bool arithmetic(const struct parameter *parameter)
          parameter->type == VALUE_BOOLEAN;
 }
 
-static struct value *find(struct values *values, const char *name)
+static struct value *find(const struct values *values, const char *name)
 {
   for (size_t i = 0; i < values->count; i++)
     if (strcmp(values->parameter[i].name, name) == 0)
@@ -79,7 +79,7 @@ bool given_set_names(const struct descriptor *descriptor, const char *name)
 
 /* A set fits if it holds every member of sets that the scene gives, and the rest of it has
  * defaults. */
-static const struct given_set *choose(struct values *values, const struct descriptor *descriptor,
+static const struct given_set *choose(const struct values *values, const struct descriptor *descriptor,
                                       size_t *given)
 {
   *given = 0;
@@ -97,6 +97,13 @@ static const struct given_set *choose(struct values *values, const struct descri
       return set;
   }
   return NULL;
+}
+
+const struct given_set *given_set_chosen(const struct values *values,
+                                         const struct descriptor *descriptor)
+{
+  size_t given;
+  return descriptor && descriptor->givens ? choose(values, descriptor, &given) : NULL;
 }
 
 static void blame_sets(struct reading *reading, struct values *values,

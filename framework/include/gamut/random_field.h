@@ -1,4 +1,5 @@
-/* Random fields over space: standard (mean 0, variance 1) values at given points. */
+/* Random fields over space: values of mean 0 at given points; of variance 1 and normal unless the
+ * plugin says otherwise. */
 #ifndef GAMUT_RANDOM_FIELD_H
 #define GAMUT_RANDOM_FIELD_H
 
@@ -10,6 +11,9 @@
   /* required. Writes one value a point. position has three arrays of `count` (metres), id one.     \
    * The same point must get the same value whatever other points are asked for with it. */         \
   gamut_status (*sample)(const void *self, const struct gamut_stream *, size_t count,              \
-                         const double *const position[3], const int64_t *id, double *value);
+                         const double *const position[3], const int64_t *id, double *value);     \
+  /* optional: the probability that the field is below `value` at a point, between 0 and 1, where   \
+   * its values are not standard normal. By it a random parameter keeps its own distribution. */     \
+  double (*below)(const void *self, double value);
 
 #endif

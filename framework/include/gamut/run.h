@@ -270,6 +270,9 @@ struct gamut_host {
   gamut_status (*sample)(struct gamut_run *, const struct gamut_values *, const char *path,
                          const char *name, size_t count, const double *const position[3],
                          const int64_t *id, double *value, bool *given);
+  /* Box around the bodies of the scene, in the axes of its geometry (0 in the others); false where
+   * no body has a shape. */
+  bool (*domain)(const struct gamut_run *, double lower[3], double upper[3]);
 };
 
 /* Every run begins with its host; the rest is the core's. */
