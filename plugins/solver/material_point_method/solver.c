@@ -12,15 +12,30 @@ static const double fastest_sound = 1e5;
 static const double sort_after = 0.3, sort_before = 0.9;
 static const double growth = 1.1;
 
+/* The value of a stored field, zero where the scene does not store it. */
+static double stored_value(const struct model *m, const struct gamut_set *set, size_t slot,
+                           struct gamut_field field, unsigned component)
+{
+  const double *value = m->host->stored(set, field, component);
+  return value != NULL ? value[slot] : 0.0;
+}
+
 gamut_status point_failed(struct model *m, const struct gamut_set *set, size_t slot,
                           const double x[3], const double v[3], const char *what)
 {
+  double stress[6];
+  for (unsigned k = 0; k < 6; k++)
+    stress[k] = stored_value(m, set, slot, m->field.stress, k);
   return gamut_fail(m->run, GAMUT_NUMERICS,
-                    "point %lld of body '%s' was lost at t = %.6g s, step %llu of %.3g s: position "
-                    "(%.6g, %.6g, %.6g) m, velocity (%.6g, %.6g, %.6g) m/s; %s",
+                    "point %lld of body '%s' was lost at t = %.6g s, step %llu of %.3g s: %s. "
+                    "Position %.6g %.6g %.6g m; velocity %.6g %.6g %.6g m/s; volume_ratio %.6g; "
+                    "stress %.6g %.6g %.6g %.6g %.6g %.6g Pa; energy %.6g J/m3",
                     (long long)set->id[slot], set->body, gamut_time(m->run),
-                    (unsigned long long)m->host->step(m->run), gamut_time_step(m->run), x[0], x[1],
-                    x[2], v[0], v[1], v[2], what);
+                    (unsigned long long)m->host->step(m->run), gamut_time_step(m->run), what, x[0],
+                    x[1], x[2], v[0], v[1], v[2],
+                    stored_value(m, set, slot, m->field.volume_ratio, 0), stress[0], stress[1],
+                    stress[2], stress[3], stress[4], stress[5],
+                    stored_value(m, set, slot, m->field.energy, 0));
 }
 
 static void destroy(void *self)
