@@ -8,7 +8,7 @@
 #include "field/vocabulary.h"
 #include "run/inside.h"
 
-enum { CHUNK_BY_DEFAULT = 128 };
+enum { CHUNK_BY_DEFAULT = 128, POINTS_PER_THREAD = 8192 };
 
 static void attach_values(struct gamut_values *values)
 {
@@ -270,6 +270,18 @@ done:
   return status;
 }
 
+/* A thread with few points waits for the others longer than it works, and on a busy machine much
+ * longer. Bits do not depend on it. */
+static void spare_threads(struct gamut_run *run)
+{
+  size_t points = 0;
+  for (size_t b = 0; b < run->scene->bodies; b++)
+    points += run->set[b]->open.points;
+  size_t worth = 1 + points / POINTS_PER_THREAD;
+  if ((size_t)run->threads > worth)
+    run->threads = (int)worth;
+}
+
 gamut_status run_new(struct scene *scene, struct registry *registry,
                      const struct run_options *options, struct trace *trace,
                      struct gamut_run **out)
@@ -303,6 +315,8 @@ gamut_status run_new(struct scene *scene, struct registry *registry,
     goto done;
   }
   TRY(assemble(run));
+  if (options->threads <= 0)
+    spare_threads(run);
 done:
   if (status != GAMUT_OK) {
     run_free(run);

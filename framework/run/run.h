@@ -15,7 +15,7 @@
 #include "store/store.h"
 
 struct run_options {
-  int threads;                   /* 0: what OpenMP says */
+  int threads;                   /* 0: what OpenMP says, but no more than there is work for */
   /* Called about ten times a second on a terminal and at every tenth of the run elsewhere; null: silent. */
   void (*progress)(void *, double done, double time, uint64_t step, double rate);
   void *progress_self;
