@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command/command_run.h"
 #include "command/scene_arguments.h"
 #include "report/report.h"
 #include "run/run.h"
@@ -49,13 +50,6 @@ static struct progress *make_progress(const struct scene *scene)
   return progress_new(stderr, end && end->present ? end->real : 1.0, unit ? unit : "s");
 }
 
-struct run_arguments {
-  const char *file, *folder;
-  struct option_texts set;
-  int threads;
-  bool force, json;
-};
-
 static gamut_status write_results(struct gamut_run *run, struct store *store, gamut_status marched,
                                   const struct run_arguments *arguments, struct command *command)
 {
@@ -78,27 +72,43 @@ done:
   return status;
 }
 
-static gamut_status run_scene(struct command *command, const struct run_arguments *arguments)
+/* A run of its own takes every random parameter at its mean. */
+static void say_means(struct command *command, const struct scene *scene)
+{
+  size_t count = scene->random_parameters;
+  if (scene->random)
+    trace_note(command->trace,
+               "%zu random parameter%s taken at %s mean: a study needs uncertainty.estimator, such "
+               "as {model: monte_carlo, runs: 100}",
+               count, count == 1 ? " is" : "s are", count == 1 ? "its" : "their");
+}
+
+static gamut_status run_scene(struct command *command, const struct run_arguments *arguments,
+                              struct scene *scene)
 {
   gamut_status status = GAMUT_OK, marched = GAMUT_OK;
-  struct scene *scene = NULL;
   struct gamut_run *run = NULL;
   struct store *store = NULL;
   struct progress *progress = NULL;
-  struct run_options options = {.threads = arguments->threads, .stop = &interrupted};
-  char *folder = arguments->folder ? strdup(arguments->folder) : standard_folder(arguments->file);
-  TRY(scene_from_arguments(command, arguments->file, &arguments->set, &scene));
+  struct run_options options = {
+      .threads = arguments->threads, .stop = &interrupted, .seed = scene->seed};
+  if (arguments->resume || arguments->retry_failed) {
+    status = usage_fail(command, "--resume goes on with a study: this scene has no "
+                                 "uncertainty.estimator");
+    goto done;
+  }
   if (!scene->solver.descriptor) {
     status =
         trace_fail(command->trace, GAMUT_SCENE,
                    "%s has no solver: it is a card for other scenes, not a run", arguments->file);
     goto done;
   }
+  say_means(command, scene);
   progress = make_progress(scene);
   options.progress = progress_tell;
   options.progress_self = progress;
   TRY(run_new(scene, command->registry, &options, command->trace, &run));
-  TRY(store_open(folder, arguments->force, command->trace, &store));
+  TRY(store_open(arguments->folder, arguments->force, command->trace, &store));
   run_record(run, store);
   TRY(store_scene(store, scene->tree, command->trace));
   trace_print(command->trace, stderr);
@@ -113,8 +123,6 @@ done:
   progress_free(progress);
   run_free(run);
   store_close(store);
-  scene_free(scene);
-  free(folder);
   return status;
 }
 
@@ -135,14 +143,29 @@ gamut_status command_run(struct command *command)
   const struct option option[] = {{"--output", 'o', OPTION_TEXT, &arguments.folder},
                                   {"--set", 0, OPTION_TEXTS, &arguments.set},
                                   {"--threads", 0, OPTION_WHOLE, &arguments.threads},
+                                  {"--resume", 0, OPTION_FLAG, &arguments.resume},
+                                  {"--retry-failed", 0, OPTION_FLAG, &arguments.retry_failed},
                                   {"--force", 0, OPTION_FLAG, &arguments.force},
                                   {"--json", 0, OPTION_FLAG, &arguments.json}};
   gamut_status status = GAMUT_OK;
+  struct scene *scene = NULL;
+  char *folder = NULL;
   TRY(options_read(command, option, sizeof option / sizeof option[0], &arguments.file, 1, 1, NULL));
-  status = run_scene(command, &arguments);
-  if (status == GAMUT_STOPPED && interrupted)
-    status = end_by_signal(command);
+  TRY(scene_from_arguments(command, arguments.file, &arguments.set, &scene));
+  folder = arguments.folder ? strdup(arguments.folder) : standard_folder(arguments.file);
+  arguments.folder = folder;
+  arguments.stop = &interrupted;
+  if (study_wanted(scene)) {
+    catch_signals();
+    status = run_study(command, &arguments, scene);
+  } else {
+    status = run_scene(command, &arguments, scene);
+    if (status == GAMUT_STOPPED && interrupted)
+      status = end_by_signal(command);
+  }
 done:
+  scene_free(scene);
+  free(folder);
   free(arguments.set.text);
   return status;
 }

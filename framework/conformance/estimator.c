@@ -11,8 +11,11 @@
 enum { PARAMETERS = 2, QUANTITIES = 2, CAPACITY = 4096, RUNS_MAX = 1 << 20 };
 static const double true_mean[QUANTITIES] = {3, 1}, true_variance[QUANTITIES] = {4.25, 2.25};
 
-static void quantities(const double *x, double *value)
+static void quantities(const double *point, double *value)
 {
+  double x[PARAMETERS];
+  for (int k = 0; k < PARAMETERS; k++)
+    x[k] = isnan(point[k]) ? 0 : point[k]; /* at its mean */
   value[0] = 3 + 2 * x[0] - 0.5 * x[1];
   value[1] = x[0] * x[0] + 0.5 * x[1];
 }
@@ -30,6 +33,18 @@ struct study {
   size_t runs;
 };
 
+/* Levels that the parameters make, as a grid. */
+static size_t levels_of(const struct values *values)
+{
+  size_t levels = 0;
+  for (size_t i = 0; i < values->count; i++) {
+    const struct tree *list = values->value[i].levels;
+    for (size_t k = 0; list && k < list->children; k++)
+      levels = (levels ? levels : 1) * list->child[k]->children;
+  }
+  return levels;
+}
+
 static gamut_status study_new(struct study *study, struct bare_run *run)
 {
   *study = (struct study){.ops = run->ops};
@@ -41,6 +56,7 @@ static gamut_status study_new(struct study *study, struct bare_run *run)
   study->batch.value = study->value;
   const struct gamut_study_shape shape = {.parameters = PARAMETERS,
                                           .quantities = QUANTITIES,
+                                          .levels = levels_of(run->specimen.values),
                                           .stream = stream_make(1, 0, "conformance")};
   return study->ops->create(bare_run_handle(run), run->specimen.values, &shape, &study->self);
 }

@@ -122,6 +122,8 @@ static void base_of_table(const struct descriptor *d, const struct parameter *pa
       settings_put(settings, p->name, p->choice[0]);
     else if (p->type == VALUE_VECTOR)
       base_vector(settings, p);
+    else if (p->type == VALUE_LEVELS)
+      settings_put(settings, p->name, "{solver.cell: [4 mm, 2 mm, 1 mm]}");
   }
   /* Without a shear modulus a solid would be tried as a fluid. */
   const struct parameter *shear = parameter_named(parameter, count, "shear_modulus");

@@ -10,6 +10,7 @@
 #include "run/run.h"
 #include "scene/scene.h"
 #include "store/store.h"
+#include "study/study.h"
 
 struct gamut_session {
   struct units *units;
@@ -79,33 +80,59 @@ static gamut_status end(struct gamut_session *session, gamut_status status)
   return worst != GAMUT_OK ? worst : status;
 }
 
-static gamut_status read_scene(struct gamut_session *session, const char *file,
-                               const struct gamut_run_request *request, struct scene **scene)
+/* The request's overrides; freed by overrides_free. */
+struct override_list {
+  struct scene_override *override;
+  char **path;
+  size_t count;
+};
+
+static gamut_status overrides_read(struct gamut_session *session,
+                                   const struct gamut_run_request *request,
+                                   struct override_list *list)
 {
-  gamut_status status = GAMUT_OK;
-  struct scene_override *override = calloc(request->sets + 1, sizeof *override);
-  char **path = calloc(request->sets + 1, sizeof *path);
-  if (!override || !path) {
-    status = trace_fail(session->trace, GAMUT_INTERNAL, "out of memory");
-    goto done;
-  }
+  *list = (struct override_list){calloc(request->sets + 1, sizeof *list->override),
+                                 calloc(request->sets + 1, sizeof *list->path), 0};
+  if (!list->override || !list->path)
+    return trace_fail(session->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t i = 0; i < request->sets; i++) {
     const char *equals = strchr(request->set[i], '=');
-    if (!equals) {
-      status = trace_fail(session->trace, GAMUT_USAGE, "'%s' is not of the form path=value",
-                          request->set[i]);
-      goto done;
-    }
-    path[i] = strndup(request->set[i], (size_t)(equals - request->set[i]));
-    override[i] = (struct scene_override){.path = path[i], .value = equals + 1};
+    if (!equals)
+      return trace_fail(session->trace, GAMUT_USAGE, "'%s' is not of the form path=value",
+                        request->set[i]);
+    char *path = list->path[list->count] =
+        strndup(request->set[i], (size_t)(equals - request->set[i]));
+    if (!path)
+      return trace_fail(session->trace, GAMUT_INTERNAL, "out of memory");
+    list->override[list->count++] = (struct scene_override){.path = path, .value = equals + 1};
   }
-  TRY(scene_read(file, override, request->sets, session->registry, session->units, session->trace,
-                 scene));
+  return GAMUT_OK;
+}
+
+static void overrides_free(struct override_list *list)
+{
+  for (size_t i = 0; list->path && i < list->count; i++)
+    free(list->path[i]);
+  free(list->path);
+  free(list->override);
+}
+
+/* Reads a scene, and the study that it asks for, which is null for a run of its own. */
+static gamut_status read_scene(struct gamut_session *session, const char *file,
+                               const struct gamut_run_request *request, struct scene **scene,
+                               struct study **study)
+{
+  gamut_status status = GAMUT_OK;
+  struct override_list list;
+  const struct study_options options = {.threads = request->threads, .force = request->force != 0};
+  TRY(overrides_read(session, request, &list));
+  TRY(scene_read(file, list.override, list.count, session->registry, session->units,
+                 session->trace, scene));
+  if (study_wanted(*scene))
+    TRY(study_new(file, list.override, list.count, *scene, session->registry, session->units,
+                  &options, session->trace, study));
 done:
-  for (size_t i = 0; path && i < request->sets; i++)
-    free(path[i]);
-  free(path);
-  free(override);
+  overrides_free(&list);
   return status;
 }
 
@@ -113,9 +140,11 @@ gamut_status gamut_check_scene(struct gamut_session *session, const char *file,
                                const struct gamut_run_request *request)
 {
   struct scene *scene = NULL;
+  struct study *study = NULL;
   gamut_status status = begin(session);
   if (status == GAMUT_OK)
-    status = read_scene(session, file, request, &scene);
+    status = read_scene(session, file, request, &scene, &study);
+  study_free(study);
   scene_free(scene);
   return end(session, status);
 }
@@ -126,7 +155,7 @@ static gamut_status run_and_record(struct gamut_session *session, struct scene *
   gamut_status status, marched;
   struct gamut_run *run = NULL;
   struct store *store = NULL;
-  const struct run_options options = {.threads = request->threads};
+  const struct run_options options = {.threads = request->threads, .seed = scene->seed};
   size_t count;
   TRY(run_new(scene, session->registry, &options, session->trace, &run));
   if (request->folder) {
@@ -152,12 +181,19 @@ gamut_status gamut_run_scene(struct gamut_session *session, const char *file,
                              const struct gamut_run_request *request, char **summary)
 {
   struct scene *scene = NULL;
+  struct study *study = NULL;
   *summary = NULL;
   gamut_status status = begin(session);
   if (status == GAMUT_OK)
-    status = read_scene(session, file, request, &scene);
-  if (status == GAMUT_OK)
+    status = read_scene(session, file, request, &scene, &study);
+  if (status == GAMUT_OK && study) {
+    status = study_run(study, request->folder, session->trace);
+    if (status == GAMUT_OK || status == GAMUT_NUMERICS)
+      *summary = study_summary(study, status);
+  } else if (status == GAMUT_OK) {
     status = run_and_record(session, scene, request, summary);
+  }
+  study_free(study);
   scene_free(scene);
   return end(session, status);
 }

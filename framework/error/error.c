@@ -187,6 +187,14 @@ size_t trace_warnings(const struct trace *trace)
   return seen(trace, MESSAGE_WARNING);
 }
 
+const char *trace_first(const struct trace *trace)
+{
+  for (size_t k = 0; trace_errors(trace) > 0 && k < trace->count; k++)
+    if (trace->message[k].kind == MESSAGE_ERROR)
+      return trace->message[k].text;
+  return NULL;
+}
+
 gamut_status trace_worst(const struct trace *trace)
 {
   return trace_errors(trace) > 0 ? trace->worst : GAMUT_OK;

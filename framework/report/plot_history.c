@@ -30,10 +30,14 @@ static gamut_status write_data(const struct plot *plot, const struct result_hist
   FILE *data = plot_file(plot, name, ".dat");
   if (!data)
     return GAMUT_OUTPUT;
-  fprintf(data, "# %s [%s]  %s [%s]\n", history->axis, history->axis_unit, history->name,
-          history->unit);
-  for (size_t i = 0; i < history->count; ++i)
-    fprintf(data, "%.10g %.10g\n", history->time[i], history->value[i]);
+  fprintf(data, "# %s [%s]  %s [%s]%s\n", history->axis, history->axis_unit, history->name,
+          history->unit, history->deviation ? ": mean, standard deviation" : "");
+  for (size_t i = 0; i < history->count; ++i) {
+    fprintf(data, "%.10g %.10g", history->time[i], history->value[i]);
+    if (history->deviation)
+      fprintf(data, " %.10g", history->deviation[i]);
+    fputc('\n', data);
+  }
   return plot_file_close(plot, data, name);
 }
 
@@ -48,8 +52,14 @@ static void write_curve(FILE *script, const struct result_history *history, cons
       readable_unit(largest(history->value, history->count), history->unit, unit, sizeof unit);
   fprintf(script, "\nset ylabel ");
   plot_text(script, plot_label(history->name, unit, label, sizeof label));
+  fprintf(script, "\nplot ");
+  if (history->deviation)
+    fprintf(script,
+            "'%s.dat' using ($1*%g):(($2-$3)*%g):(($2+$3)*%g) with filledcurves "
+            "linecolor rgb '#c8d9ec' title 'mean +- one standard deviation', ",
+            name, axis, factor, factor);
   fprintf(script,
-          "\nplot '%s.dat' using ($1*%g):($2*%g) with lines linewidth 2 linecolor rgb '#1f5fa8' "
+          "'%s.dat' using ($1*%g):($2*%g) with lines linewidth 2 linecolor rgb '#1f5fa8' "
           "notitle\n",
           name, axis, factor);
 }

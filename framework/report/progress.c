@@ -97,3 +97,64 @@ void progress_tell(void *progress, double done, double time, uint64_t step, doub
   }
   fflush(p->file);
 }
+
+struct runs_progress {
+  FILE *file;
+  double started;
+  bool terminal, open, begun;
+  size_t from; /* runs that the log had */
+  int tenth;
+};
+
+struct runs_progress *runs_progress_new(FILE *file)
+{
+  struct runs_progress *p = calloc(1, sizeof *p);
+  if (!p)
+    return NULL;
+  *p = (struct runs_progress){.file = file, .started = now()};
+  p->terminal = isatty(fileno(file)) == 1;
+  return p;
+}
+
+void runs_progress_free(struct runs_progress *p)
+{
+  if (p && p->open)
+    fputc('\n', p->file);
+  free(p);
+}
+
+static void write_runs(struct runs_progress *p, size_t done, size_t asked, size_t failed)
+{
+  char left[32];
+  double elapsed = now() - p->started, made = (double)(done - p->from);
+  fprintf(p->file, "%3.0f %%  %zu of %zu runs done", 100.0 * (double)done / (double)asked, done,
+          asked);
+  if (failed)
+    fprintf(p->file, ", %zu failed", failed);
+  clock_text(done < asked ? elapsed * (double)(asked - done) / made : elapsed, left, sizeof left);
+  fprintf(p->file, done < asked ? ", %s left" : ", took %s", left);
+}
+
+void runs_progress_tell(void *progress, size_t done, size_t asked, size_t failed)
+{
+  struct runs_progress *p = progress;
+  if (!p || asked == 0 || done == 0)
+    return;
+  if (!p->begun)
+    p->from = done - 1;
+  p->begun = true;
+  if (p->terminal) {
+    fputc('\r', p->file);
+    write_runs(p, done, asked, failed);
+    fputs("\033[K", p->file);
+    p->open = true;
+  } else {
+    int tenth = (int)(10.0 * (double)done / (double)asked + 1e-9);
+    if (tenth <= p->tenth)
+      return;
+    p->tenth = tenth;
+    write_runs(p, done, asked, failed);
+    fputc('\n', p->file);
+  }
+  fflush(p->file);
+}

@@ -15,11 +15,17 @@ struct progress *progress_new(FILE *, double end, const char *axis_unit);
 void progress_free(struct progress *); /* ends the line */
 void progress_tell(void *progress, double done, double time, uint64_t step, double rate);
 
+/* The same for a study: runs done. */
+struct runs_progress;
+struct runs_progress *runs_progress_new(FILE *);
+void runs_progress_free(struct runs_progress *);
+void runs_progress_tell(void *progress, size_t done, size_t asked, size_t failed);
+
 /* The quantities of a summary as a table with units that read well ("16.2 mm"). */
 void report_summary(const char *summary_json, FILE *);
 
 /* Pictures of a result folder with gnuplot: one PNG a history (history_NAME.png; history.png has
- * them all), and the body coloured by a field at the last (or given) frame
+ * them all; of a study the mean with a band of one standard deviation), and the body coloured by a field at the last (or given) frame
  * (body_FIELD_NNNNNNNN.png): the plane of a 2d scene, mirrored where it is axisymmetric; a slice
  * through the axis in 3d; the field over x in 1d. Data (SI) and .gp scripts stand beside the
  * pictures, so that they can be made again with `gnuplot FILE.gp`. Made in `folder`, or

@@ -45,6 +45,40 @@ static void write_history(const json_t *values, const char *unit, FILE *file)
           readable_like(most, like, unit, high, sizeof high), json_array_size(values));
 }
 
+/* The largest mean of a curve with its error and spread: the curve itself is in the tables. */
+static void write_means(const json_t *quantity, const char *unit, FILE *file)
+{
+  const json_t *means = json_object_get(quantity, "means");
+  size_t best = 0, index;
+  double most = -1;
+  char text[48];
+  json_t *entry;
+  json_array_foreach(means, index, entry)
+  {
+    if (json_is_number(entry) && fabs(json_number_value(entry)) > most) {
+      most = fabs(json_number_value(entry));
+      best = index;
+    }
+  }
+  if (most < 0) {
+    fprintf(file, "a curve without numbers%s%s\n",
+            json_object_get(quantity, "reason") ? ": " : "", word(quantity, "reason", ""));
+    return;
+  }
+  double value = json_number_value(json_array_get(means, best));
+  const json_t *error = json_array_get(json_object_get(quantity, "mean_errors"), best);
+  const json_t *variance = json_array_get(json_object_get(quantity, "variances"), best);
+  fprintf(file, "a curve of %zu points, mean up to %s", json_array_size(means),
+          readable(value, unit, text, sizeof text));
+  if (json_is_number(error))
+    fprintf(file, " +- %s",
+            readable_like(json_number_value(error), value, unit, text, sizeof text));
+  if (json_is_number(variance))
+    fprintf(file, ", standard deviation %s there",
+            readable_like(sqrt(json_number_value(variance)), value, unit, text, sizeof text));
+  fputc('\n', file);
+}
+
 static void write_quantity(const char *name, const json_t *quantity, int width, FILE *file)
 {
   const char *unit = word(quantity, "unit", "1");
@@ -53,6 +87,10 @@ static void write_quantity(const char *name, const json_t *quantity, int width, 
   double variance = number(quantity, "variance", NAN), error = number(quantity, "mean_error", NAN);
   char text[48];
   fprintf(file, "  %-*s  ", width, name);
+  if (json_object_get(quantity, "means")) {
+    write_means(quantity, unit, file);
+    return;
+  }
   if (json_is_array(values)) {
     write_history(values, unit, file);
     return;
@@ -108,6 +146,33 @@ static void write_ledger(json_t *ledger, FILE *file)
     fprintf(file, " of the largest part\n");
 }
 
+static void write_study(const json_t *study, FILE *file)
+{
+  const json_t *reasons = json_object_get(study, "reasons");
+  const json_t *cost = json_object_get(study, "cost");
+  size_t index;
+  json_t *entry;
+  if (!study)
+    return;
+  fprintf(file, "study: %s, %.0f runs", word(study, "estimator", "?"), number(study, "asked", 0));
+  if (number(study, "failed", 0) > 0)
+    fprintf(file, ", %.0f of them failed: the moments are those of the rest",
+            number(study, "failed", 0));
+  if (number(cost, "from_log", 0) > 0)
+    fprintf(file, ", %.0f taken from the log", number(cost, "from_log", 0));
+  fprintf(file, "; %.3g s on %.0f thread%s\n", number(cost, "wall_s", 0),
+          number(cost, "threads", 1), number(cost, "threads", 1) > 1 ? "s" : "");
+  json_array_foreach(reasons, index, entry)
+  {
+    if (index == 5) {
+      fprintf(file, "  and %zu more reasons\n", json_array_size(reasons) - index);
+      break;
+    }
+    fprintf(file, "  %zu failed: %s\n", json_array_size(json_object_get(entry, "runs")),
+            word(entry, "reason", "?"));
+  }
+}
+
 static void write_cost(const json_t *cost, FILE *file)
 {
   double wall = number(cost, "wall_s", NAN), rate = number(cost, "point_steps_per_s", NAN);
@@ -134,6 +199,9 @@ void report_summary(const char *summary_json, FILE *file)
   }
   write_quantities(json_object_get(summary, "quantities"), file);
   write_ledger(json_object_get(summary, "ledger"), file);
-  write_cost(json_object_get(summary, "cost"), file);
+  if (json_object_get(summary, "study"))
+    write_study(json_object_get(summary, "study"), file);
+  else
+    write_cost(json_object_get(summary, "cost"), file);
   json_decref(summary);
 }

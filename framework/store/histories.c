@@ -5,8 +5,7 @@
 #include "store/hdf5.h"
 #include "store/state.h"
 
-/* The shortest of the common forms that reads back to the same number. */
-static void add_number(struct text *text, double value)
+void text_number(struct text *text, double value)
 {
   char number[40];
   snprintf(number, sizeof number, "%.15g", value);
@@ -15,7 +14,7 @@ static void add_number(struct text *text, double value)
   text_add(text, "%s", number);
 }
 
-static void add_cell(struct text *text, const char *words)
+void text_cell(struct text *text, const char *words)
 {
   if (!strpbrk(words, ",\"\r\n")) {
     text_add(text, "%s", words);
@@ -33,17 +32,17 @@ static gamut_status write_table(struct store *store, struct history *const *hist
   struct text text = {0};
   gamut_status status;
   text_add(&text, "quantity,unit,");
-  add_cell(&text, count ? history[0]->axis : "time");
+  text_cell(&text, count ? history[0]->axis : "time");
   text_add(&text, ",value\n");
   for (size_t h = 0; h < count; ++h) {
     for (size_t i = 0; i < history[h]->count; ++i) {
-      add_cell(&text, history[h]->quantity->name);
+      text_cell(&text, history[h]->quantity->name);
       text_add(&text, ",");
-      add_cell(&text, history[h]->unit);
+      text_cell(&text, history[h]->unit);
       text_add(&text, ",");
-      add_number(&text, history[h]->time[i]);
+      text_number(&text, history[h]->time[i]);
       text_add(&text, ",");
-      add_number(&text, history[h]->value[i]);
+      text_number(&text, history[h]->value[i]);
       text_add(&text, "\n");
     }
   }

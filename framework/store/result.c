@@ -1,5 +1,6 @@
 #include "store/result.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -90,6 +91,15 @@ static char *dataset_unit(hid_t group, const char *name)
   return unit ? unit : strdup("1");
 }
 
+static bool read_deviation(hid_t group, struct result_history *history)
+{
+  size_t count = 0, columns;
+  history->deviation = hdf5_read_reals(group, "variance", &count, &columns);
+  for (size_t i = 0; history->deviation && i < count; ++i)
+    history->deviation[i] = sqrt(history->deviation[i]);
+  return history->deviation && count == history->count;
+}
+
 static bool read_history(hid_t parent, size_t index, struct result_history *history)
 {
   size_t columns, times = 0;
@@ -100,12 +110,15 @@ static bool read_history(hid_t parent, size_t index, struct result_history *hist
   history->axis = hdf5_read_text_attribute(group, "axis");
   if (!history->axis)
     history->axis = strdup("time");
-  history->unit = dataset_unit(group, "value");
+  bool study = H5Lexists(group, "mean", H5P_DEFAULT) > 0;
+  const char *value = study ? "mean" : "value";
+  history->unit = dataset_unit(group, value);
   history->axis_unit = dataset_unit(group, history->axis);
   history->time = hdf5_read_reals(group, history->axis, &times, &columns);
-  history->value = hdf5_read_reals(group, "value", &history->count, &columns);
+  history->value = hdf5_read_reals(group, value, &history->count, &columns);
+  bool whole = !study || !history->value || read_deviation(group, history);
   H5Gclose(group);
-  return history->time && history->value && times == history->count;
+  return whole && history->time && history->value && times == history->count;
 }
 
 gamut_status result_histories(const struct result *result, struct trace *trace,
@@ -113,10 +126,14 @@ gamut_status result_histories(const struct result *result, struct trace *trace,
 {
   *histories = NULL;
   *count = 0;
-  size_t links = count_links(result->file, "quantities");
+  bool study = H5Lexists(result->file, "study", H5P_DEFAULT) > 0;
+  const char *place = study ? "study/curves" : "quantities";
+  if (study && H5Lexists(result->file, place, H5P_DEFAULT) <= 0)
+    return GAMUT_OK;
+  size_t links = count_links(result->file, place);
   if (links == 0)
     return GAMUT_OK;
-  hid_t group = H5Gopen2(result->file, "quantities", H5P_DEFAULT);
+  hid_t group = H5Gopen2(result->file, place, H5P_DEFAULT);
   *histories = calloc(links, sizeof **histories);
   bool good = group >= 0 && *histories;
   for (size_t i = 0; good && i < links; ++i) {
@@ -142,6 +159,7 @@ void result_histories_free(struct result_history *history, size_t count)
     free(history[i].axis_unit);
     free(history[i].time);
     free(history[i].value);
+    free(history[i].deviation);
   }
   free(history);
 }

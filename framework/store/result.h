@@ -43,6 +43,7 @@ struct result_history {
   char *name, *unit, *axis, *axis_unit;
   size_t count;
   double *time, *value;
+  double *deviation; /* of a study, whose mean is `value`; null: of one run */
 };
 gamut_status result_histories(const struct result *, struct trace *, struct result_history **,
                               size_t *count);

@@ -15,6 +15,10 @@ struct text {
   bool failed;
 };
 void text_add(struct text *, const char *format, ...) __attribute__((format(printf, 2, 3)));
+/* The shortest of the common forms that reads back to the same number. */
+void text_number(struct text *, double value);
+/* A cell of a CSV file, in quotes where it must be. */
+void text_cell(struct text *, const char *words);
 
 struct store {
   char *folder, *path; /* path of results.h5 */
@@ -34,6 +38,7 @@ struct store {
 #define RESULT_HISTORY "history.csv"
 #define RESULT_SUMMARY "summary.json"
 #define RESULT_SCENE "scene.yaml"
+#define RESULT_STUDY "study.csv"
 #define RESULT_PICTURES "pictures"
 
 /* Records why HDF5 failed; the file is then left as it is. */

@@ -10,7 +10,7 @@
 #include "store/state.h"
 
 static const char *const result_files[] = {RESULT_HDF5, RESULT_XDMF, RESULT_HISTORY, RESULT_SUMMARY,
-                                           RESULT_SCENE};
+                                           RESULT_SCENE, RESULT_STUDY, RESULT_LOG};
 enum { RESULT_FILES = sizeof result_files / sizeof result_files[0] };
 
 /* Name of the first file of a result that the folder holds, or null. */
@@ -68,11 +68,13 @@ static gamut_status remove_pictures(const char *folder, struct trace *trace)
   return status;
 }
 
-static gamut_status remove_former(const char *folder, struct trace *trace)
+static gamut_status remove_former(const char *folder, bool keep_log, struct trace *trace)
 {
   gamut_status status = GAMUT_OK;
   /* results.h5 goes last: it is the mark of a result, should removing stop half-way */
   for (size_t i = RESULT_FILES; i-- > 0 && status == GAMUT_OK;) {
+    if (keep_log && strcmp(result_files[i], RESULT_LOG) == 0)
+      continue;
     char *path = file_path(folder, result_files[i]);
     if (!path)
       return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
@@ -90,15 +92,19 @@ static gamut_status make_way(const char *folder, bool force, struct trace *trace
   const char *former = former_file(folder);
   if (!former)
     return GAMUT_OK;
+  char *log = file_path(folder, RESULT_LOG);
+  bool study = log && file_exists(log);
+  free(log);
   if (!force)
     return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL,
-                         "choose another folder, or --force to replace the result",
+                         study ? "--resume goes on with the study, --force replaces it"
+                               : "choose another folder, or --force to replace the result",
                          "'%s' holds a result already (%s)", folder, former);
   if (!is_ours(folder))
     return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL, "choose another folder",
                          "'%s' holds %s, but no results.h5 of gamut: nothing is removed", folder,
                          former);
-  return remove_former(folder, trace);
+  return remove_former(folder, false, trace);
 }
 
 static hid_t create_file(const char *path)
@@ -142,7 +148,10 @@ gamut_status store_broken(struct store *store, struct trace *trace)
   return hdf5_fault(store->path, "write", trace);
 }
 
-gamut_status store_open(const char *folder, bool force, struct trace *trace, struct store **made)
+enum opening { OPEN_NEW, OPEN_FORCE, OPEN_RENEW };
+
+static gamut_status open_as(const char *folder, enum opening how, struct trace *trace,
+                            struct store **made)
 {
   gamut_status status = GAMUT_OK;
   *made = NULL;
@@ -158,13 +167,24 @@ gamut_status store_open(const char *folder, bool force, struct trace *trace, str
     goto done;
   }
   TRY(folder_make(folder, trace));
-  TRY(make_way(folder, force, trace));
+  TRY(how == OPEN_RENEW ? remove_former(folder, true, trace)
+                        : make_way(folder, how == OPEN_FORCE, trace));
   TRY(start_file(store, trace));
   *made = store;
   return GAMUT_OK;
 done:
   store_close(store);
   return status;
+}
+
+gamut_status store_open(const char *folder, bool force, struct trace *trace, struct store **made)
+{
+  return open_as(folder, force ? OPEN_FORCE : OPEN_NEW, trace, made);
+}
+
+gamut_status store_renew(const char *folder, struct trace *trace, struct store **made)
+{
+  return open_as(folder, OPEN_RENEW, trace, made);
 }
 
 void store_close(struct store *store)

@@ -14,9 +14,11 @@ struct store;
 
 /* Creates DIR (and its parents). An existing result is refused with GAMUT_OUTPUT unless `force`,
  * which removes only files of a former result: results.h5, results.xdmf, history.csv, summary.json,
- * scene.yaml and what `gamut plot` made in pictures/, and only where results.h5 is one of ours.
+ * scene.yaml, study.csv, study.log and what `gamut plot` made in pictures/, and only where results.h5 is one of ours.
  * Nothing is made when the scene was wrong: call this late. */
 gamut_status store_open(const char *folder, bool force, struct trace *, struct store **);
+/* Makes the results of a study anew whose study.log, which stays, says what has been run. */
+gamut_status store_renew(const char *folder, struct trace *, struct store **);
 void store_close(struct store *); /* accepts null */
 
 /* One set of points in a frame: `count` real points. */
@@ -50,6 +52,29 @@ gamut_status store_histories(struct store *, struct history *const *, size_t cou
  * no more than 64 kB). */
 gamut_status store_scene(struct store *, const struct tree *, struct trace *);
 gamut_status store_summary(struct store *, const char *json, struct trace *);
+
+/* What a study leaves. The log of finished runs is the study's own file in the folder. */
+#define RESULT_LOG "study.log"
+struct table_column {
+  const char *group;                 /* below the table's in results.h5; null: there itself */
+  const char *name, *unit, *meaning; /* unit null: none */
+  const double *value;               /* one a row; NaN: nothing there; or */
+  const char *const *text;           /* one a row */
+};
+/* FILE (CSV) in the folder, and one dataset a column in GROUP of results.h5. */
+gamut_status store_table(struct store *, const char *file, const char *group,
+                         const struct table_column *, size_t columns, size_t rows, struct trace *);
+/* Moments of a curve over the runs. */
+struct table_curve {
+  const char *name, *unit, *axis, *axis_unit, *meaning;
+  size_t count;
+  const double *at, *mean, *variance, *mean_error, *variance_error; /* count each */
+  const double *run; /* runs x count: the curves themselves */
+  size_t runs;       /* 0: they are not kept */
+};
+/* history.csv, and GROUP/NAME/{AXIS, mean, variance, mean_error, variance_error, runs}. */
+gamut_status store_curves(struct store *, const char *group, const struct table_curve *,
+                          size_t curves, struct trace *);
 const char *store_folder(const struct store *);
 
 #endif

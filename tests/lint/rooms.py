@@ -7,7 +7,7 @@ import tap
 
 # The one place where the order is written, lowest first.
 ROOMS = """error unit tree expression descriptor registry random scene field schedule material
-quantity store run embed report conformance command""".split()
+quantity store run study embed report conformance command""".split()
 # Rooms may use these although they stand in a higher room: tables with no code behind them.
 SHARED = {"field/vocabulary.h"}
 

@@ -12,7 +12,8 @@ struct gamut_batch {
   size_t quantities;  /* values that come back from each run */
   size_t capacity;    /* rows there is room for */
   size_t rows;        /* out of ask: runs wanted; 0 ends the study */
-  double *point;      /* out of ask: rows x parameters, in units of standard deviations */
+  double *point;      /* out of ask: rows x parameters, in units of standard deviations; NaN: the
+                         parameter stays at its mean */
   int *level;         /* out of ask: which of the study's levels (lists of scene overrides); 0 where
                          there are none */
   const double *value; /* into tell: rows x quantities; NaN where the run failed */
@@ -29,7 +30,8 @@ struct gamut_study_shape {
 /* What a study is after. Owned by the core, `quantities` entries each. */
 struct gamut_moments {
   double *mean, *variance;             /* of each quantity */
-  double *mean_error, *variance_error; /* one standard error, or the estimator's own bound */
+  double *mean_error, *variance_error; /* one standard error, or the estimator's own bound;
+                                          infinite where the estimator knows none */
 };
 
 #define GAMUT_ESTIMATOR_OPS(B)                                                                     \

@@ -44,7 +44,7 @@ struct gamut_run_request {
   int force;              /* whether results in that folder may be replaced */
 };
 
-/* Runs a scene. *summary becomes the text of summary.json, to be given to gamut_free; it is set also
+/* Runs a scene, or the study that it asks for. *summary becomes the text of summary.json, to be given to gamut_free; it is set also
  * where the numbers failed on the way (GAMUT_NUMERICS), null where nothing was run. Returns the status
  * whose number is the exit code of `gamut run`. */
 GAMUT_API gamut_status gamut_run_scene(struct gamut_session *, const char *scene,

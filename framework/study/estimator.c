@@ -1,0 +1,127 @@
+#include <stdarg.h>
+#include <stdlib.h>
+
+#include "random/stream.h"
+#include "run/host.h"
+#include "study/inside.h"
+
+enum { BYTES_A_BATCH = 1 << 26, ROWS_MIN = 16, ROWS_MAX = 4096 };
+
+static struct trace *trace_of(struct gamut_run *run)
+{
+  return ((struct estimator_host *)(void *)run)->trace;
+}
+
+static gamut_status study_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
+{
+  char text[1024];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(text, sizeof text, format, list);
+  va_end(list);
+  return trace_fail(trace_of(run), status, "%s", text);
+}
+
+static gamut_status study_fail_at(struct gamut_run *run, const struct gamut_values *values,
+                                  const char *path, const char *expected, const char *format, ...)
+{
+  char text[1024], where[512];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(text, sizeof text, format, list);
+  va_end(list);
+  const struct value *value = values_find(values, path);
+  const struct tree *node = value && value->node ? value->node : values->node;
+  snprintf(where, sizeof where, "%s.%s", values->path, path);
+  return trace_fail_at(trace_of(run), GAMUT_SCENE, node ? &node->place : NULL, where, expected,
+                       "%s", text);
+}
+
+static void study_warn(struct gamut_run *run, const char *format, ...)
+{
+  char text[1024];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(text, sizeof text, format, list);
+  va_end(list);
+  trace_warn_at(trace_of(run), NULL, NULL, NULL, "%s", text);
+}
+
+static const struct gamut_host study_host = {
+    .size = sizeof(struct gamut_host),
+    .fail = study_fail,
+    .fail_at = study_fail_at,
+    .warn = study_warn,
+    .given = host_given,
+    .real = host_real,
+    .integer = host_integer,
+    .boolean = host_boolean,
+    .text = host_text,
+    .vector = host_vector,
+    .table = host_table,
+};
+
+static void give_host(struct values *values)
+{
+  values->host = &study_host;
+  for (size_t i = 0; i < values->count; i++)
+    if (values->value[i].group)
+      give_host(values->value[i].group);
+}
+
+/* Fixed by the scene alone, so that batches are the same whatever the machine. */
+static size_t batch_rows(const struct study *study)
+{
+  size_t columns = study->values + study->parameters + 1;
+  size_t rows = BYTES_A_BATCH / (columns * sizeof(double));
+  return rows < ROWS_MIN ? ROWS_MIN : rows > ROWS_MAX ? ROWS_MAX : rows;
+}
+
+gamut_status estimator_new(struct study *study)
+{
+  gamut_status status;
+  const struct instance *instance = &study->scene->estimator;
+  const struct gamut_plugin *plugin;
+  size_t rows = batch_rows(study), values = study->values;
+  TRY(registry_open(study->registry, instance->descriptor, study->trace, &plugin));
+  const struct estimator_operations *ops = plugin->ops;
+  if (!ops->create || !ops->destroy || !ops->ask || !ops->tell || !ops->report)
+    return trace_fail(study->trace, GAMUT_PLUGIN,
+                      "%s lacks one of the operations create, destroy, ask, tell, report",
+                      instance->descriptor->id);
+  struct gamut_batch *batch = &study->batch;
+  *batch = (struct gamut_batch){
+      .parameters = study->parameters, .quantities = values, .capacity = rows};
+  batch->point = calloc(rows * study->parameters + 1, sizeof *batch->point);
+  batch->level = calloc(rows, sizeof *batch->level);
+  batch->value = study->told = calloc(rows * values + 1, sizeof *study->told);
+  double *moment = study->moment = calloc(4 * values + 1, sizeof *moment);
+  study->asked_on = calloc(study->levels + 1, sizeof *study->asked_on);
+  if (!batch->point || !batch->level || !study->told || !moment || !study->asked_on)
+    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  study->moments = (struct gamut_moments){moment, moment + values, moment + 2 * values,
+                                          moment + 3 * values};
+  study->host = (struct estimator_host){.head = {&study_host}, .trace = study->trace};
+  give_host(instance->values);
+  const struct gamut_study_shape shape = {
+      .parameters = study->parameters,
+      .quantities = values,
+      .levels = study->levels,
+      .stream = stream_make(study->scene->seed, 0, "uncertainty.estimator")};
+  TRY(ops->create((struct gamut_run *)(void *)&study->host, instance->values, &shape,
+                  &study->self));
+  study->ops = ops;
+done:
+  return status;
+}
+
+void estimator_free(struct study *study)
+{
+  if (study->ops)
+    study->ops->destroy(study->self);
+  free(study->batch.point);
+  free(study->batch.level);
+  free(study->told);
+  free(study->moment);
+  free(study->asked_on);
+}

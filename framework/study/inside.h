@@ -1,0 +1,138 @@
+/* The inside of a study, shared by the files of this room. */
+#ifndef GAMUT_STUDY_INSIDE_H
+#define GAMUT_STUDY_INSIDE_H
+
+#include <gamut/plugin.h>
+
+#include "study/study.h"
+
+struct estimator_operations {
+  size_t size;
+  GAMUT_ESTIMATOR_OPS(void)
+};
+
+/* A list of scene overrides: one value of each varied path. */
+struct level {
+  struct scene_override *override; /* nodes of the study's scene */
+};
+
+/* A quantity of the scene among the values of a run: columns first to first + count - 1. */
+struct measured {
+  const struct quantity *quantity;
+  char unit[64];
+  size_t first, count;
+  bool curve;
+  const char *axis, *axis_unit; /* of a curve */
+  double *at;                   /* the common axis */
+};
+
+/* One run. */
+struct outcome {
+  size_t level;
+  uint64_t realisation;
+  bool done;         /* made, or found in the log */
+  char *reason;      /* why it failed; null: it did not */
+  double *parameter; /* what was drawn; the mean where nothing was */
+  double *value;     /* NaN where there is none */
+  uint64_t steps, points;
+  double wall, cpu; /* s */
+};
+
+/* What an estimator may ask of the core. */
+struct estimator_host {
+  struct gamut_run_head head; /* first */
+  struct trace *trace;
+};
+
+struct study {
+  const char *file;
+  struct scene_override *given; /* of the command line */
+  size_t givens;
+  struct scene *scene;
+  struct registry *registry;
+  const struct units *units;
+  struct study_options options;
+  struct trace *trace;
+
+  const char **varied; /* paths of the levels' overrides */
+  size_t varies;
+  struct level *level;
+  size_t levels;
+
+  size_t parameters;
+  double *lower; /* Cholesky's factor; null: independent */
+
+  struct measured *measured; /* one a quantity of the scene */
+  size_t quantities, values;
+
+  struct estimator_host host;
+  const struct estimator_operations *ops;
+  void *self;
+  struct gamut_batch batch;
+  double *told;
+  double *moment; /* mean, variance, mean_error, variance_error of each value, once reported */
+  struct gamut_moments moments;
+
+  struct outcome *outcome; /* in the order of asking */
+  size_t runs, room;
+  size_t *asked_on; /* runs asked for so far, one a level */
+  size_t finished, failed, repeated; /* repeated: taken from the log */
+  struct outcome *logged;            /* by number; done where the log has it */
+  size_t logs;
+  int log; /* -1: none */
+  char digest[17];
+  double wall; /* of this sitting */
+  int threads;
+};
+
+/* level.c: combines and checks them. */
+gamut_status levels_make(struct study *);
+void levels_free(struct study *);
+gamut_status level_scene(const struct study *, size_t level, struct trace *, struct scene **);
+/* "0.4 mm", "[0 m/s, -150 m/s]": a varied value as text, allocated. */
+char *level_text(const struct study *, size_t level, size_t varied);
+
+/* draw.c: a row of the estimator as values of the parameters. */
+gamut_status draw_prepare(struct study *);
+void draw_row(const struct study *, const double *normal, double *parameter);
+
+/* curve.c: what a run's histories give. */
+gamut_status values_plan(struct study *, const struct gamut_run *);
+gamut_status values_axes(struct study *, const struct gamut_run *);
+void values_place(struct study *); /* columns, once all counts are known */
+void values_take(const struct study *, const struct gamut_run *, double *value);
+/* Points of the common axis that every run that did not fail has; `kept` gets their numbers. */
+size_t curve_overlap(const struct study *, const struct measured *, size_t *kept);
+
+/* work.c */
+struct worker {
+  struct scene *scene;
+  size_t level;
+  size_t *parameter; /* which of the study's parameters each of the scene's is */
+};
+void worker_clear(struct worker *);
+/* Makes one run. GAMUT_OK also where it failed (outcome->reason); GAMUT_STOPPED where it was told to
+ * stop; else what ends the study. */
+gamut_status work_run(struct study *, struct worker *, struct outcome *);
+
+/* log.c: what has been run, line by line. */
+void log_digest(struct study *); /* after plugins have been opened */
+/* Reads and goes on with a log that is there, where the options say so; `there` tells. */
+gamut_status log_resume(struct study *, const char *folder, bool *there);
+gamut_status log_begin(struct study *, const char *folder);
+bool log_has_axes(const struct study *);
+gamut_status log_axes(struct study *);
+gamut_status log_run(struct study *, size_t number, const struct outcome *);
+void log_close(struct study *);
+
+/* estimator.c */
+gamut_status estimator_new(struct study *);
+void estimator_free(struct study *);
+
+/* results.c */
+gamut_status results_write(struct study *, struct store *, gamut_status);
+
+bool outcome_room(struct study *, struct outcome *); /* makes its arrays */
+void outcome_clear(struct outcome *);
+
+#endif

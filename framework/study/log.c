@@ -1,0 +1,356 @@
+/* study.log: one line a finished run, with exact numbers and a sum over the line, forced to the disk.
+ *
+ *   gamut-study 1 DIGEST
+ *   curve QUANTITY COUNT AXIS...
+ *   run NUMBER LEVEL REALISATION STEPS POINTS WALL CPU PARAMETERS... VALUES... ok|failed REASON
+ *
+ * each followed by " ~" and eight hex digits. A line that was cut off by the end of the program is
+ * taken off when the study goes on. */
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "store/file.h"
+#include "study/inside.h"
+
+enum { SUM_LENGTH = 10 }; /* " ~" and eight digits */
+
+static const uint64_t hash_start = UINT64_C(0xcbf29ce484222325);
+
+static uint64_t hash(uint64_t h, const void *bytes, size_t size)
+{
+  const unsigned char *byte = bytes;
+  for (size_t i = 0; i < size; i++)
+    h = (h ^ byte[i]) * UINT64_C(0x100000001b3);
+  return h;
+}
+
+static uint32_t sum_of(const char *line, size_t size)
+{
+  uint64_t h = hash(hash_start, line, size);
+  return (uint32_t)(h ^ h >> 32);
+}
+
+/* Numbers behind the text: tables may come from files of their own. */
+static uint64_t hash_values(uint64_t h, const struct values *values)
+{
+  for (size_t i = 0; values && i < values->count; i++) {
+    const struct value *value = &values->value[i];
+    h = hash(h, &value->real, sizeof value->real);
+    if (value->number)
+      h = hash(h, value->number, value->numbers * sizeof *value->number);
+    h = hash_values(h, value->group);
+  }
+  return h;
+}
+
+void log_digest(struct study *study)
+{
+  const struct scene *scene = study->scene;
+  char *text = NULL;
+  size_t size = 0;
+  FILE *file = open_memstream(&text, &size);
+  if (file) {
+    tree_write(scene->tree, file);
+    for (size_t i = 0; i < registry_count(study->registry); i++) {
+      const struct descriptor *d = registry_at(study->registry, i);
+      if (registry_is_open(study->registry, d))
+        fprintf(file, "%s %s %s\n", d->id, d->version, d->digest);
+    }
+    fclose(file);
+  }
+  uint64_t h = text ? hash(hash_start, text, size) : hash_start;
+  free(text);
+  h = hash(h, &scene->seed, sizeof scene->seed);
+  h = hash_values(h, scene->solver.values);
+  h = hash_values(h, scene->estimator.values);
+  for (size_t i = 0; i < scene->materials; i++) {
+    h = hash_values(h, scene->material[i].eos.values);
+    h = hash_values(h, scene->material[i].strength.values);
+    h = hash_values(h, scene->material[i].elasticity.values);
+  }
+  for (size_t i = 0; i < scene->effects; i++)
+    h = hash_values(h, scene->effect[i].instance.values);
+  snprintf(study->digest, sizeof study->digest, "%016" PRIx64, h);
+}
+
+/* ---- writing ------------------------------------------------------------------------------------
+ */
+
+/* The line goes out in one piece, or the study ends: what is not in the log was not run. */
+static gamut_status append(struct study *study, char *text, size_t size)
+{
+  char *whole = realloc(text, size + SUM_LENGTH + 2);
+  if (!whole) {
+    free(text);
+    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  }
+  sprintf(whole + size, " ~%08" PRIx32 "\n", sum_of(whole, size));
+  size += SUM_LENGTH + 1;
+  ssize_t written = write(study->log, whole, size);
+  int fault = errno;
+  free(whole);
+  if (written == (ssize_t)size && fsync(study->log) == 0)
+    return GAMUT_OK;
+  return trace_fail(study->trace, GAMUT_OUTPUT, "cannot write " RESULT_LOG ": %s",
+                    written < 0 ? strerror(fault) : "the disk took a part only");
+}
+
+gamut_status log_axes(struct study *study)
+{
+  gamut_status status = GAMUT_OK;
+  for (size_t i = 0; study->log >= 0 && i < study->quantities; i++) {
+    const struct measured *m = &study->measured[i];
+    char *text = NULL;
+    size_t size = 0;
+    FILE *file = m->curve ? open_memstream(&text, &size) : NULL;
+    if (!file)
+      continue;
+    fprintf(file, "curve %zu %zu", i, m->count);
+    for (size_t k = 0; k < m->count; k++)
+      fprintf(file, " %a", m->at[k]);
+    fclose(file);
+    TRY(append(study, text, size));
+  }
+done:
+  return status;
+}
+
+gamut_status log_run(struct study *study, size_t number, const struct outcome *o)
+{
+  char *text = NULL;
+  size_t size = 0;
+  if (study->log < 0)
+    return GAMUT_OK;
+  FILE *file = open_memstream(&text, &size);
+  if (!file)
+    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  fprintf(file, "run %zu %zu %" PRIu64 " %" PRIu64 " %" PRIu64 " %a %a", number, o->level,
+          o->realisation, o->steps, o->points, o->wall, o->cpu);
+  for (size_t i = 0; i < study->parameters; i++)
+    fprintf(file, " %a", o->parameter[i]);
+  for (size_t i = 0; i < study->values; i++)
+    fprintf(file, " %a", o->value[i]);
+  fprintf(file, o->reason ? " failed " : " ok");
+  for (const char *c = o->reason ? o->reason : ""; *c; c++)
+    fputc(*c == '\n' || *c == '\r' ? ' ' : *c, file);
+  fclose(file);
+  return append(study, text, size);
+}
+
+static gamut_status open_file(struct study *study, const char *path, int flags)
+{
+  study->log = open(path, O_RDWR | O_APPEND | O_CLOEXEC | flags, 0666);
+  if (study->log < 0)
+    return trace_fail(study->trace, GAMUT_OUTPUT, "cannot open '%s': %s", path, strerror(errno));
+  if (flock(study->log, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return trace_fail(study->trace, GAMUT_OUTPUT, "'%s' is in use by another gamut", path);
+  return GAMUT_OK;
+}
+
+gamut_status log_begin(struct study *study, const char *folder)
+{
+  gamut_status status;
+  char header[64], *path = file_path(folder, RESULT_LOG);
+  snprintf(header, sizeof header, "gamut-study 1 %s", study->digest);
+  char *text = strdup(header);
+  if (!path || !text) {
+    free(text);
+    free(path);
+    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  }
+  status = open_file(study, path, O_CREAT | O_TRUNC);
+  if (status != GAMUT_OK) {
+    free(text);
+    goto done;
+  }
+  TRY(append(study, text, strlen(text)));
+done:
+  free(path);
+  return status;
+}
+
+void log_close(struct study *study)
+{
+  if (study->log >= 0)
+    close(study->log);
+  study->log = -1;
+}
+
+/* ---- reading ------------------------------------------------------------------------------------
+ */
+
+static bool next_number(char **text, double *value)
+{
+  char *after;
+  *value = strtod(*text, &after);
+  bool good = after != *text;
+  *text = after;
+  return good;
+}
+
+static bool next_whole(char **text, uint64_t *value)
+{
+  char *after;
+  errno = 0;
+  *value = strtoull(*text, &after, 10);
+  bool good = after != *text && errno == 0;
+  *text = after;
+  return good;
+}
+
+static bool read_curve(struct study *study, char *text)
+{
+  uint64_t index, count;
+  if (!next_whole(&text, &index) || !next_whole(&text, &count) || index >= study->quantities ||
+      count > strlen(text) || !study->measured[index].curve)
+    return false;
+  struct measured *m = &study->measured[index];
+  free(m->at);
+  m->at = calloc(count + 1, sizeof *m->at);
+  m->count = count;
+  bool good = m->at != NULL;
+  for (size_t k = 0; good && k < count; k++)
+    good = next_number(&text, &m->at[k]);
+  values_place(study);
+  return good;
+}
+
+static bool logged_room(struct study *study, uint64_t number)
+{
+  enum { RUNS_MAX = 1 << 28 };
+  if (number < study->logs)
+    return true;
+  size_t count = 2 * study->logs > number ? 2 * study->logs : (size_t)number + 64;
+  struct outcome *grown =
+      number < RUNS_MAX ? realloc(study->logged, count * sizeof *grown) : NULL;
+  if (!grown)
+    return false;
+  memset(grown + study->logs, 0, (count - study->logs) * sizeof *grown);
+  study->logged = grown;
+  study->logs = count;
+  return true;
+}
+
+static bool read_run(struct study *study, char *text)
+{
+  uint64_t number, level;
+  if (!next_whole(&text, &number) || !logged_room(study, number))
+    return false;
+  struct outcome *o = &study->logged[number];
+  outcome_clear(o);
+  bool good = next_whole(&text, &level) && next_whole(&text, &o->realisation) &&
+              next_whole(&text, &o->steps) && next_whole(&text, &o->points) &&
+              next_number(&text, &o->wall) && next_number(&text, &o->cpu) &&
+              outcome_room(study, o);
+  o->level = level;
+  for (size_t i = 0; good && i < study->parameters; i++)
+    good = next_number(&text, &o->parameter[i]);
+  for (size_t i = 0; good && i < study->values; i++)
+    good = next_number(&text, &o->value[i]);
+  if (good && strncmp(text, " failed ", 8) == 0)
+    good = (o->reason = strdup(text + 8)) != NULL;
+  else
+    good = good && strcmp(text, " ok") == 0;
+  o->done = good && !(o->reason && study->options.retry_failed);
+  return good;
+}
+
+/* Takes off the sum at the end of a line; false if it is not that of the line. */
+static bool take_sum(char *line)
+{
+  size_t length = strlen(line);
+  char expected[SUM_LENGTH + 1];
+  if (length < SUM_LENGTH)
+    return false;
+  snprintf(expected, sizeof expected, " ~%08" PRIx32, sum_of(line, length - SUM_LENGTH));
+  bool good = strcmp(line + length - SUM_LENGTH, expected) == 0;
+  line[length - SUM_LENGTH] = 0;
+  return good;
+}
+
+static gamut_status refuse(struct study *study, const char *path, size_t line, const char *why)
+{
+  return trace_fail_at(study->trace, GAMUT_OUTPUT, NULL, NULL,
+                       "use another folder, or --force to begin anew",
+                       "cannot go on with '%s', line %zu: %s", path, line, why);
+}
+
+static gamut_status read_line(struct study *study, const char *path, char *line, size_t number)
+{
+  if (number == 1) {
+    char expected[64];
+    snprintf(expected, sizeof expected, "gamut-study 1 %s", study->digest);
+    if (strncmp(line, "gamut-study 1 ", 14) != 0)
+      return refuse(study, path, number, "it is no log of this gamut's studies");
+    if (strcmp(line, expected) != 0)
+      return refuse(study, path, number, "the scene, the seed or a plugin is another than it was");
+    return GAMUT_OK;
+  }
+  bool good = false;
+  if (strncmp(line, "curve ", 6) == 0)
+    good = read_curve(study, line + 6);
+  else if (strncmp(line, "run ", 4) == 0)
+    good = read_run(study, line + 4);
+  return good ? GAMUT_OK : refuse(study, path, number, "it cannot be understood");
+}
+
+static gamut_status read_all(struct study *study, const char *path, FILE *file)
+{
+  gamut_status status = GAMUT_OK;
+  char *line = NULL;
+  size_t room = 0, number = 0;
+  off_t good = 0;
+  ssize_t length;
+  while ((length = getline(&line, &room, file)) > 0) {
+    bool whole = line[length - 1] == '\n';
+    line[whole ? length - 1 : length] = 0;
+    if (!whole || strlen(line) != (size_t)length - 1 || !take_sum(line)) {
+      bool last = getline(&line, &room, file) <= 0;
+      if (number > 0 && last)
+        break; /* cut off in the middle of writing */
+      TRY(refuse(study, path, number + 1, "it is damaged"));
+    }
+    TRY(read_line(study, path, line, ++number));
+    good += length;
+  }
+  if (number == 0)
+    TRY(refuse(study, path, 1, "it is empty"));
+  if (ftruncate(study->log, good) != 0)
+    status = trace_fail(study->trace, GAMUT_OUTPUT, "cannot write '%s': %s", path, strerror(errno));
+done:
+  free(line);
+  return status;
+}
+
+gamut_status log_resume(struct study *study, const char *folder, bool *there)
+{
+  gamut_status status = GAMUT_OK;
+  char *path = file_path(folder, RESULT_LOG);
+  FILE *file = NULL;
+  *there = path && study->options.resume && file_exists(path);
+  if (!*there)
+    goto done;
+  TRY(open_file(study, path, 0));
+  file = fopen(path, "r");
+  status = file ? read_all(study, path, file)
+                : trace_fail(study->trace, GAMUT_OUTPUT, "cannot read '%s': %s", path,
+                             strerror(errno));
+done:
+  if (file)
+    fclose(file);
+  free(path);
+  return status;
+}
+
+bool log_has_axes(const struct study *study)
+{
+  for (size_t i = 0; i < study->quantities; i++)
+    if (study->measured[i].curve && !study->measured[i].at)
+      return false;
+  return true;
+}

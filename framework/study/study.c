@@ -1,0 +1,345 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+#include "study/inside.h"
+
+static double now(void)
+{
+  struct timespec time;
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+bool study_wanted(const struct scene *scene)
+{
+  return scene->estimator.descriptor != NULL;
+}
+
+/* The paths are copied: whoever read them may be gone when the study runs. */
+static bool copy_overrides(struct study *study, const struct scene_override *given, size_t count)
+{
+  study->given = calloc(count + 1, sizeof *study->given);
+  for (size_t i = 0; study->given && i < count; i++) {
+    char *path = strdup(given[i].path), *value = strdup(given[i].value);
+    study->given[study->givens++] = (struct scene_override){.path = path, .value = value};
+    if (!path || !value)
+      return false;
+  }
+  return study->given != NULL;
+}
+
+static void free_overrides(struct study *study)
+{
+  for (size_t i = 0; study->given && i < study->givens; i++) {
+    free((char *)study->given[i].path);
+    free((char *)study->given[i].value);
+  }
+  free(study->given);
+}
+
+gamut_status study_new(const char *file, const struct scene_override *given, size_t givens,
+                       struct scene *scene, struct registry *registry, const struct units *units,
+                       const struct study_options *options, struct trace *trace,
+                       struct study **made)
+{
+  gamut_status status;
+  struct study *study = calloc(1, sizeof *study);
+  *made = NULL;
+  if (!study)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  study->file = file;
+  study->scene = scene;
+  study->registry = registry;
+  study->units = units;
+  study->options = *options;
+  study->trace = trace;
+  study->log = -1;
+  study->threads = options->threads;
+#ifdef _OPENMP
+  if (study->threads <= 0)
+    study->threads = omp_get_max_threads();
+#endif
+  study->threads = study->threads < 1 ? 1 : study->threads;
+  if (!copy_overrides(study, given, givens)) {
+    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
+  if (!scene->solver.descriptor) {
+    status = trace_fail(trace, GAMUT_SCENE,
+                        "%s has no solver: it is a card for other scenes, not a run", file);
+    goto done;
+  }
+  TRY(draw_prepare(study));
+  TRY(levels_make(study));
+  *made = study;
+  return GAMUT_OK;
+done:
+  study_free(study);
+  return status;
+}
+
+void study_free(struct study *study)
+{
+  if (!study)
+    return;
+  log_close(study);
+  estimator_free(study);
+  levels_free(study);
+  for (size_t i = 0; study->measured && i < study->quantities; i++)
+    free(study->measured[i].at);
+  for (size_t i = 0; i < study->runs; i++)
+    outcome_clear(&study->outcome[i]);
+  for (size_t i = 0; i < study->logs; i++)
+    outcome_clear(&study->logged[i]);
+  free(study->measured);
+  free(study->outcome);
+  free(study->logged);
+  free(study->lower);
+  free_overrides(study);
+  free(study);
+}
+
+/* ---- a batch ------------------------------------------------------------------------------------
+ */
+
+/* A run that the log has, if it is the same one. */
+static gamut_status recall(struct study *study, size_t number)
+{
+  struct outcome *wanted = &study->outcome[number];
+  if (number >= study->logs || !study->logged[number].done)
+    return GAMUT_OK;
+  struct outcome *logged = &study->logged[number];
+  bool same = logged->level == wanted->level && logged->realisation == wanted->realisation;
+  for (size_t i = 0; i < study->parameters; i++)
+    same = same && fabs(logged->parameter[i] - wanted->parameter[i]) <=
+                       1e-9 * fabs(wanted->parameter[i]);
+  if (!same)
+    return trace_fail(study->trace, GAMUT_OUTPUT,
+                      "run %zu of the log is not the run that the estimator asks for", number);
+  outcome_clear(wanted);
+  *wanted = *logged;
+  *logged = (struct outcome){0};
+  study->repeated++;
+  study->finished++;
+  study->failed += wanted->reason != NULL;
+  return GAMUT_OK;
+}
+
+static gamut_status list_rows(struct study *study)
+{
+  gamut_status status = GAMUT_OK;
+  const struct gamut_batch *batch = &study->batch;
+  if (batch->rows > batch->capacity)
+    return trace_fail(study->trace, GAMUT_PLUGIN, "%s asks for more runs than there is room for",
+                      study->scene->estimator.descriptor->id);
+  if (study->runs + batch->rows > study->room) {
+    size_t room = 2 * study->room + batch->rows;
+    struct outcome *grown = realloc(study->outcome, room * sizeof *grown);
+    if (!grown)
+      return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+    study->outcome = grown;
+    study->room = room;
+  }
+  for (size_t r = 0; r < batch->rows; r++) {
+    struct outcome *o = &study->outcome[study->runs];
+    size_t level = batch->level[r] < 0 ? SIZE_MAX : (size_t)batch->level[r];
+    if (level >= (study->levels ? study->levels : 1))
+      return trace_fail(study->trace, GAMUT_PLUGIN, "%s asks for level %d, which is not there",
+                        study->scene->estimator.descriptor->id, batch->level[r]);
+    *o = (struct outcome){.level = level, .realisation = study->asked_on[level]++};
+    if (!outcome_room(study, o)) {
+      outcome_clear(o);
+      return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+    }
+    draw_row(study, batch->point + r * study->parameters, o->parameter);
+    TRY(recall(study, study->runs++));
+  }
+done:
+  return status;
+}
+
+static bool told_to_stop(const struct study *study)
+{
+  return study->options.stop && *study->options.stop;
+}
+
+/* Books a finished run; one thread at a time. */
+static gamut_status book(struct study *study, size_t number)
+{
+  const struct outcome *o = &study->outcome[number];
+  gamut_status status = log_run(study, number, o);
+  study->finished++;
+  study->failed += o->reason != NULL;
+  if (study->options.progress)
+    study->options.progress(study->options.progress_self, study->finished, study->runs,
+                            study->failed);
+  return status;
+}
+
+static gamut_status run_rows(struct study *study, size_t first)
+{
+  gamut_status end = GAMUT_OK;
+#pragma omp parallel num_threads(study->threads)
+  {
+    struct worker worker = {0};
+#pragma omp for schedule(dynamic, 1)
+    for (size_t k = first; k < study->runs; k++) {
+      gamut_status status, over;
+#pragma omp atomic read
+      over = end;
+      if (over != GAMUT_OK || study->outcome[k].done || told_to_stop(study))
+        continue;
+      status = work_run(study, &worker, &study->outcome[k]);
+#pragma omp critical(gamut_study_book)
+      {
+        if (status == GAMUT_OK)
+          status = book(study, k);
+        if (status != GAMUT_OK && end == GAMUT_OK) {
+#pragma omp atomic write
+          end = status;
+        }
+      }
+    }
+#pragma omp critical(gamut_study_make)
+    worker_clear(&worker);
+  }
+  return end == GAMUT_OK && told_to_stop(study) ? GAMUT_STOPPED : end;
+}
+
+static gamut_status tell(struct study *study, size_t first)
+{
+  for (size_t r = 0; r < study->batch.rows; r++) {
+    const struct outcome *o = &study->outcome[first + r];
+    for (size_t q = 0; q < study->values; q++)
+      study->told[r * study->values + q] = o->reason ? NAN : o->value[q];
+  }
+  return study->ops->tell(study->self, &study->batch);
+}
+
+static gamut_status judge_failures(struct study *study)
+{
+  const char *reason = NULL;
+  if ((double)study->failed <= study->scene->failures * (double)study->runs &&
+      study->failed < study->runs)
+    return GAMUT_OK;
+  for (size_t i = 0; i < study->runs && !reason; i++)
+    reason = study->outcome[i].reason;
+  return trace_fail_at(study->trace, GAMUT_NUMERICS, NULL, NULL,
+                       "the moments of what is left would mislead; study.csv has every reason",
+                       "%zu of %zu runs failed, more than the share of %g that "
+                       "uncertainty.failures allows; the first: %s",
+                       study->failed, study->runs, study->scene->failures, reason);
+}
+
+static gamut_status run_batches(struct study *study)
+{
+  gamut_status status = GAMUT_OK;
+  for (;;) {
+    size_t first = study->runs;
+    study->batch.rows = 0;
+    memset(study->batch.level, 0, study->batch.capacity * sizeof *study->batch.level);
+    TRY(study->ops->ask(study->self, &study->batch));
+    if (study->batch.rows == 0)
+      break;
+    TRY(list_rows(study));
+    TRY(run_rows(study, first));
+    TRY(tell(study, first));
+    TRY(judge_failures(study));
+  }
+  if (study->runs == 0)
+    return trace_fail(study->trace, GAMUT_SCENE, "%s asks for no run",
+                      study->scene->estimator.descriptor->id);
+  TRY(study->ops->report(study->self, &study->moments));
+done:
+  return status;
+}
+
+/* ---- the whole ----------------------------------------------------------------------------------
+ */
+
+/* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends the
+ * program leaves it whole. */
+static gamut_status begin(struct study *study, const char *folder)
+{
+  gamut_status status = GAMUT_OK;
+  struct store *store = NULL;
+  bool there = false;
+  if (!folder)
+    return GAMUT_OK;
+  TRY(log_resume(study, folder, &there));
+  if (there)
+    return GAMUT_OK;
+  TRY(store_open(folder, study->options.force, study->trace, &store));
+  TRY(store_scene(store, study->scene->tree, study->trace));
+  status = log_begin(study, folder);
+done:
+  store_close(store);
+  return status;
+}
+
+static gamut_status march_nominal(struct study *study, struct gamut_run *run)
+{
+  gamut_status status;
+  if (log_has_axes(study))
+    return GAMUT_OK;
+  status = run_march(run, study->trace);
+  if (status == GAMUT_NUMERICS)
+    trace_note(study->trace, "this was the run at the means, whose curves give the common axes");
+  if (status != GAMUT_OK)
+    return status;
+  TRY(values_axes(study, run));
+  TRY(log_axes(study));
+done:
+  return status;
+}
+
+/* The run at the means tells what is measured, in which unit and on which axis. */
+static gamut_status prepare(struct study *study, const char *folder)
+{
+  gamut_status status;
+  struct gamut_run *run = NULL;
+  const struct gamut_plugin *plugin;
+  const struct run_options options = {
+      .threads = study->threads, .stop = study->options.stop, .seed = study->scene->seed};
+  TRY(run_new(study->scene, study->registry, &options, study->trace, &run));
+  TRY(values_plan(study, run));
+  TRY(registry_open(study->registry, study->scene->estimator.descriptor, study->trace, &plugin));
+  log_digest(study);
+  TRY(begin(study, folder));
+  TRY(march_nominal(study, run));
+  TRY(estimator_new(study));
+done:
+  run_free(run);
+  return status;
+}
+
+static gamut_status write_all(struct study *study, const char *folder, gamut_status status)
+{
+  struct store *store = NULL;
+  if (!folder || study->runs == 0 || (status != GAMUT_OK && status != GAMUT_NUMERICS))
+    return status;
+  gamut_status written = store_renew(folder, study->trace, &store);
+  if (written == GAMUT_OK)
+    written = results_write(study, store, status);
+  store_close(store);
+  return status != GAMUT_OK ? status : written;
+}
+
+gamut_status study_run(struct study *study, const char *folder, struct trace *trace)
+{
+  gamut_status status;
+  double begun = now();
+  study->trace = trace;
+  TRY(prepare(study, folder));
+  status = run_batches(study);
+  study->wall = now() - begun;
+  status = write_all(study, folder, status);
+done:
+  log_close(study);
+  return status;
+}

@@ -1,0 +1,139 @@
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "study/inside.h"
+
+static double clock_now(clockid_t clock)
+{
+  struct timespec now;
+  clock_gettime(clock, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+bool outcome_room(struct study *study, struct outcome *outcome)
+{
+  outcome->parameter = calloc(study->parameters + 1, sizeof(double));
+  outcome->value = calloc(study->values + 1, sizeof(double));
+  return outcome->parameter && outcome->value;
+}
+
+void outcome_clear(struct outcome *outcome)
+{
+  free(outcome->parameter);
+  free(outcome->value);
+  free(outcome->reason);
+  *outcome = (struct outcome){0};
+}
+
+void worker_clear(struct worker *worker)
+{
+  scene_free(worker->scene);
+  free(worker->parameter);
+  *worker = (struct worker){0};
+}
+
+/* Which of the study's parameters the scene's are: a level may have made one certain. */
+static bool map_parameters(const struct study *study, struct worker *worker)
+{
+  const struct scene *scene = worker->scene;
+  worker->parameter = calloc(scene->random_parameters + 1, sizeof *worker->parameter);
+  for (size_t i = 0; worker->parameter && i < scene->random_parameters; i++)
+    for (size_t k = 0; k < study->parameters; k++)
+      if (strcmp(study->scene->random_parameter[k].path, scene->random_parameter[i].path) == 0)
+        worker->parameter[i] = k;
+  return worker->parameter != NULL;
+}
+
+static gamut_status take_scene(const struct study *study, struct worker *worker, size_t level,
+                               struct trace *trace)
+{
+  if (worker->scene && worker->level == level)
+    return GAMUT_OK;
+  worker_clear(worker);
+  worker->level = level;
+  gamut_status status = level_scene(study, level, trace, &worker->scene);
+  if (status == GAMUT_OK && !map_parameters(study, worker))
+    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  return status;
+}
+
+static gamut_status draw(const struct worker *worker, const struct outcome *outcome,
+                         struct trace *trace)
+{
+  size_t count = worker->scene->random_parameters;
+  double *value = calloc(count + 1, sizeof *value);
+  if (!value)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t i = 0; i < count; i++)
+    value[i] = outcome->parameter[worker->parameter[i]];
+  gamut_status status = scene_draw(worker->scene, value, trace);
+  free(value);
+  return status;
+}
+
+/* Scenes, formulas, units and shared objects are handled by one thread at a time. */
+static gamut_status make(const struct study *study, struct worker *worker,
+                         const struct outcome *outcome, struct trace *trace, struct gamut_run **run)
+{
+  gamut_status status;
+  const struct run_options options = {.threads = 1,
+                                      .stop = study->options.stop,
+                                      .seed = study->scene->seed,
+                                      .realisation = outcome->realisation};
+  TRY(take_scene(study, worker, outcome->level, trace));
+  TRY(draw(worker, outcome, trace));
+  TRY(run_new(worker->scene, study->registry, &options, trace, run));
+done:
+  return status;
+}
+
+static void collect(const struct study *study, const struct gamut_run *run,
+                    struct outcome *outcome)
+{
+  const struct run_cost cost = run_cost_of(run);
+  outcome->steps = cost.steps;
+  outcome->points = cost.points;
+  if (!outcome->reason)
+    values_take(study, run, outcome->value);
+}
+
+/* A mistake of the numbers or of a draw is this run's alone; what is wrong with the program, with a
+ * plugin or with the machine ends the study. */
+static bool ends_run_only(gamut_status status)
+{
+  return status == GAMUT_NUMERICS || status == GAMUT_SCENE;
+}
+
+gamut_status work_run(struct study *study, struct worker *worker, struct outcome *outcome)
+{
+  gamut_status status = GAMUT_INTERNAL;
+  struct gamut_run *run = NULL;
+  struct trace *trace = trace_new();
+  double wall = clock_now(CLOCK_MONOTONIC), cpu = clock_now(CLOCK_THREAD_CPUTIME_ID);
+  for (size_t i = 0; i < study->values; i++)
+    outcome->value[i] = NAN;
+#pragma omp critical(gamut_study_make)
+  if (trace)
+    status = make(study, worker, outcome, trace, &run);
+  if (status == GAMUT_OK)
+    status = run_march(run, trace);
+  if (ends_run_only(status)) {
+    const char *words = trace_first(trace);
+    outcome->reason = strdup(words ? words : status_text(status));
+    status = outcome->reason ? GAMUT_OK : GAMUT_INTERNAL;
+  } else if (status != GAMUT_OK && status != GAMUT_STOPPED) {
+    const char *words = trace_first(trace);
+    trace_fail(study->trace, status, "%s", words ? words : status_text(status));
+  }
+  if (run && status == GAMUT_OK)
+    collect(study, run, outcome);
+#pragma omp critical(gamut_study_make)
+  run_free(run);
+  trace_free(trace);
+  outcome->wall = clock_now(CLOCK_MONOTONIC) - wall;
+  outcome->cpu = clock_now(CLOCK_THREAD_CPUTIME_ID) - cpu;
+  outcome->done = status == GAMUT_OK;
+  return status;
+}
