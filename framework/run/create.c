@@ -8,7 +8,11 @@
 #include "field/vocabulary.h"
 #include "run/inside.h"
 
-enum { CHUNK_BY_DEFAULT = 128, POINTS_PER_THREAD = 8192 };
+enum {
+  CHUNK_BY_DEFAULT = 128,
+  POINTS_PER_THREAD = 8192,
+  THREADS_MAX = 1024 /* the OpenMP library keeps a word per thread on the stack */
+};
 
 static void attach_values(struct gamut_values *values)
 {
@@ -305,6 +309,11 @@ gamut_status run_new(struct scene *scene, struct registry *registry,
     run->threads = omp_get_max_threads();
 #endif
   run->threads = run->threads < 1 ? 1 : run->threads;
+  if (run->threads > THREADS_MAX) {
+    status = trace_fail(trace, GAMUT_USAGE, "%d threads are too many: at most %d", run->threads,
+                        THREADS_MAX);
+    goto done;
+  }
   run->material = calloc(scene->materials + 1, sizeof(*run->material));
   run->set = calloc(scene->bodies + 1, sizeof(*run->set));
   const struct value *end = values_find(scene->solver.values, "end");

@@ -35,9 +35,10 @@ gamut_status folder_make(const char *folder, struct trace *trace)
     end += strcspn(end, "/");
     char kept = *end;
     *end = 0;
-    if (mkdir(path, 0777) != 0 && errno != EEXIST && stat(path, &information) != 0)
+    int fault = mkdir(path, 0777) == 0 ? 0 : errno;
+    if (fault && fault != EEXIST && stat(path, &information) != 0)
       status =
-          trace_fail(trace, GAMUT_OUTPUT, "cannot make the folder '%s': %s", path, strerror(errno));
+          trace_fail(trace, GAMUT_OUTPUT, "cannot make the folder '%s': %s", path, strerror(fault));
     *end = kept;
   }
   if (status == GAMUT_OK && (stat(folder, &information) != 0 || !S_ISDIR(information.st_mode)))
