@@ -1,7 +1,4 @@
-"""Cylinders that hit a rigid wall: a benchmark of codes, and experiments. Prints TAP; with --long the
-finer grids and the bar in three dimensions."""
-import sys
-
+"""Cylinders that hit a rigid wall: a benchmark of codes, and experiments. Prints TAP."""
 import scenes
 
 BENCHMARK_RADIUS = 7.22e-3
@@ -84,9 +81,12 @@ def test_shots(grids):
                           0.01 if grids[1] > 12 else 0.02, "mm", 1e-3)
 
 
-if __name__ == "__main__":
-    LONG = "--long" in sys.argv
-    flat = test_benchmark((4, 8, 16, 32) if LONG else (4, 8, 16))
-    test_benchmark_3d(8 if LONG else 4, flat[1 if LONG else 0], 0.01)
-    test_shots((18, 24) if LONG else (8, 12))
+def main(fine):
+    flat = test_benchmark((4, 8, 16, 32) if fine else (4, 8, 16))
+    test_benchmark_3d(8 if fine else 4, flat[1 if fine else 0], 0.01)
+    test_shots((18, 24) if fine else (8, 12))
     scenes.done()
+
+
+if __name__ == "__main__":
+    main(False)
