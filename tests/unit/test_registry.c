@@ -69,7 +69,9 @@ static void test_discovery(void)
   struct trace *trace = trace_new();
   make_plugin("first", "eos", "linear", EOS_REST);
   make_plugin("first", "strength", "voce", STRENGTH_REST);
-  make_plugin("second", "eos", "linear", EOS_REST);
+  make_plugin("second", "eos", "linear",
+              "inputs: [compression]\n"
+              "outputs: [pressure, sound_speed, pressure_slope_compression]\n");
   make_plugin("second", "eos", "cubic", EOS_REST);
   make_plugin("second", "eos", "broken",
               "inputs: [compresion]\noutputs: [pressure, sound_speed]\n");
@@ -81,7 +83,7 @@ static void test_discovery(void)
   tap_ok(!registry_find(registry, "eos/broken"), "a faulty YAML is no plugin");
   const char *words = told(trace);
   tap_ok(strstr(words, "is shadowed by") && strstr(words, "/second/eos/linear"),
-         "the shadowed one is noted");
+         "the shadowed one of another interface is noted");
   tap_ok(strstr(words, "broken.yaml") && trace_errors(trace) == 0, "the faulty one is a warning");
 
   tap_ok(registry_expect(registry, GAMUT_KIND_EOS, "cubic", &place, "a", trace) != NULL,
