@@ -240,8 +240,19 @@ static void find_used(struct expression *expression)
   }
 }
 
-struct expression *expression_new(const char *text, const char *const *names, size_t count,
-                                  char *why, size_t size)
+static void discard(struct expression *expression)
+{
+  if (expression == NULL)
+    return;
+  if (expression->parser != NULL)
+    mupRelease(expression->parser);
+  free(expression->slot);
+  free(expression->used);
+  free(expression);
+}
+
+static struct expression *make(const char *text, const char *const *names, size_t count, char *why,
+                               size_t size)
 {
   char copy[TEXT_MAX];
   if (!copy_text(text, copy, why, size))
@@ -263,26 +274,31 @@ struct expression *expression_new(const char *text, const char *const *names, si
       mupDefineVar(expression->parser, names[k], &expression->slot[k]);
   }
   if (!compile(expression, copy, names, why, size)) {
-    expression_free(expression);
+    discard(expression);
     return NULL;
   }
   find_used(expression);
   return expression;
 no_memory:
   snprintf(why, size, "no memory left for the formula");
-  expression_free(expression);
+  discard(expression);
   return NULL;
+}
+
+/* muParser makes and frees its parsers one at a time. */
+struct expression *expression_new(const char *text, const char *const *names, size_t count,
+                                  char *why, size_t size)
+{
+  struct expression *expression;
+#pragma omp critical(gamut_expression)
+  expression = make(text, names, count, why, size);
+  return expression;
 }
 
 void expression_free(struct expression *expression)
 {
-  if (expression == NULL)
-    return;
-  if (expression->parser != NULL)
-    mupRelease(expression->parser);
-  free(expression->slot);
-  free(expression->used);
-  free(expression);
+#pragma omp critical(gamut_expression)
+  discard(expression);
 }
 
 double expression_value(struct expression *expression, const double *value)

@@ -13,7 +13,7 @@ struct expression;
  * or 0;
  * `&&`, `||`, `c ? a : b`; the constant pi. On failure null with the reason in `why` (unknown names
  * are named). A variable hides a function of its name; min and max pass over NaN. A formula has one
- * value, at most 1000 ASCII characters and no assignments. Not for two threads at once. */
+ * value, at most 1000 ASCII characters and no assignments. Any thread. */
 struct expression *expression_new(const char *text, const char *const *names, size_t count,
                                   char *why, size_t size);
 void expression_free(struct expression *); /* accepts null */

@@ -300,8 +300,8 @@ done:
   return status;
 }
 
-gamut_status registry_open(struct registry *registry, const struct descriptor *descriptor,
-                           struct trace *trace, const struct gamut_plugin **plugin)
+static gamut_status open_once(struct registry *registry, const struct descriptor *descriptor,
+                              struct trace *trace, const struct gamut_plugin **plugin)
 {
   struct entry *entry = registry_entry(registry, descriptor);
   gamut_status status = GAMUT_OK;
@@ -315,6 +315,15 @@ gamut_status registry_open(struct registry *registry, const struct descriptor *d
   if (status != GAMUT_OK)
     entry->level = NULL;
   *plugin = entry->plugin;
+  return status;
+}
+
+gamut_status registry_open(struct registry *registry, const struct descriptor *descriptor,
+                           struct trace *trace, const struct gamut_plugin **plugin)
+{
+  gamut_status status;
+#pragma omp critical(gamut_registry)
+  status = open_once(registry, descriptor, trace, plugin);
   return status;
 }
 

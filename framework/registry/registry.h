@@ -51,7 +51,7 @@ gamut_status registry_add(struct registry *, const char *path, struct trace *,
 
 /* Opens the plugin's shared object (once) and checks it: symbol, sizes, ABI, kind, name, digest,
  * block size, floating-point flags unchanged by loading. Refused with GAMUT_PLUGIN and the real
- * reason, naming the file. Not thread-safe.
+ * reason, naming the file. Any thread.
  *
  * Each instruction-set level is a shared object of its own, and all export the plain symbol
  * NAME_LTX_gamut_plugin. Of these the first that exists and that this processor can run is opened:

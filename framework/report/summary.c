@@ -146,6 +146,37 @@ static void write_ledger(json_t *ledger, FILE *file)
     fprintf(file, " of the largest part\n");
 }
 
+/* What was varied beside what came out. */
+static void write_levels(const json_t *levels, const json_t *quantities, FILE *file)
+{
+  enum { LEVELS_SHOWN = 40 };
+  size_t index;
+  json_t *level, *value;
+  const char *name;
+  json_array_foreach(levels, index, level)
+  {
+    char text[48];
+    if (index == LEVELS_SHOWN) {
+      fprintf(file, "  and %zu more, in study.csv\n", json_array_size(levels) - index);
+      break;
+    }
+    fprintf(file, " ");
+    json_object_foreach(json_object_get(level, "set"), name, value)
+    {
+      fprintf(file, " %s: %s ", name, json_string_value(value));
+    }
+    fprintf(file, " ->");
+    json_object_foreach(json_object_get(level, "quantities"), name, value)
+    {
+      const char *unit = word(json_object_get(quantities, name), "unit", "1");
+      fprintf(file, "  %s %s", name,
+              json_is_number(value) ? readable(json_number_value(value), unit, text, sizeof text)
+                                    : "no value");
+    }
+    fputc('\n', file);
+  }
+}
+
 static void write_study(const json_t *study, FILE *file)
 {
   const json_t *reasons = json_object_get(study, "reasons");
@@ -199,8 +230,12 @@ void report_summary(const char *summary_json, FILE *file)
   }
   write_quantities(json_object_get(summary, "quantities"), file);
   write_ledger(json_object_get(summary, "ledger"), file);
-  if (json_object_get(summary, "study"))
-    write_study(json_object_get(summary, "study"), file);
+  const json_t *study = json_object_get(summary, "study");
+  const json_t *levels = json_object_get(study, "levels");
+  if (levels)
+    write_levels(levels, json_object_get(summary, "quantities"), file);
+  if (study)
+    write_study(study, file);
   else
     write_cost(json_object_get(summary, "cost"), file);
   json_decref(summary);

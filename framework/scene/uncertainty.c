@@ -148,7 +148,7 @@ static bool random_named(struct reading *reading, const struct tree *node, size_
   }
   if (!found)
     blame_value(reading, node,
-                scene->random_parameters
+                scene->random_parameters && !tree_at(scene->tree, path)
                     ? suggest(path, name, scene->random_parameters, expected, sizeof expected)
                     : "give it a spread, such as {mean: 90 MPa, cv: 0.1}",
                 "'%.200s' is no random parameter of this scene", path);

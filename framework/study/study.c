@@ -205,7 +205,6 @@ static gamut_status run_rows(struct study *study, size_t first)
         }
       }
     }
-#pragma omp critical(gamut_study_make)
     worker_clear(&worker);
   }
   return end == GAMUT_OK && told_to_stop(study) ? GAMUT_STOPPED : end;

@@ -118,17 +118,36 @@ static json_t *reasons_json(const struct study *study)
   return all;
 }
 
+/* Mean of a scalar over the runs of one level. */
+static double level_mean(const struct study *study, const struct measured *m, size_t level)
+{
+  double sum = 0, count = 0;
+  for (size_t r = 0; r < study->runs; r++) {
+    const struct outcome *o = &study->outcome[r];
+    if (o->level != level || !o->done || o->reason || !isfinite(o->value[m->first]))
+      continue;
+    sum += o->value[m->first];
+    count += 1;
+  }
+  return sum / count;
+}
+
+/* [{"set": {"solver.cell": "0.4 mm"}, "quantities": {"length": 0.0162}}], SI. */
 static json_t *levels_json(const struct study *study)
 {
   json_t *all = json_array();
   for (size_t i = 0; i < study->levels; i++) {
-    json_t *entry = json_object();
+    json_t *set = json_object(), *values = json_object();
     for (size_t k = 0; k < study->varies; k++) {
       char *text = level_text(study, i, k);
-      json_object_set_new(entry, study->varied[k], json_string(text ? text : ""));
+      json_object_set_new(set, study->varied[k], json_string(text ? text : ""));
       free(text);
     }
-    json_array_append_new(all, entry);
+    for (size_t k = 0; k < study->quantities; k++)
+      if (!study->measured[k].curve)
+        json_object_set_new(values, study->measured[k].quantity->name,
+                            number(level_mean(study, &study->measured[k], i)));
+    json_array_append_new(all, json_pack("{s:o, s:o}", "set", set, "quantities", values));
   }
   return all;
 }

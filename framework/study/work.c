@@ -73,7 +73,6 @@ static gamut_status draw(const struct worker *worker, const struct outcome *outc
   return status;
 }
 
-/* Scenes, formulas, units and shared objects are handled by one thread at a time. */
 static gamut_status make(const struct study *study, struct worker *worker,
                          const struct outcome *outcome, struct trace *trace, struct gamut_run **run)
 {
@@ -82,7 +81,10 @@ static gamut_status make(const struct study *study, struct worker *worker,
                                       .stop = study->options.stop,
                                       .seed = study->scene->seed,
                                       .realisation = outcome->realisation};
-  TRY(take_scene(study, worker, outcome->level, trace));
+/* Units are read by one thread at a time. */
+#pragma omp critical(gamut_study_scene)
+  status = take_scene(study, worker, outcome->level, trace);
+  TRY(status);
   TRY(draw(worker, outcome, trace));
   TRY(run_new(worker->scene, study->registry, &options, trace, run));
 done:
@@ -114,7 +116,6 @@ gamut_status work_run(struct study *study, struct worker *worker, struct outcome
   double wall = clock_now(CLOCK_MONOTONIC), cpu = clock_now(CLOCK_THREAD_CPUTIME_ID);
   for (size_t i = 0; i < study->values; i++)
     outcome->value[i] = NAN;
-#pragma omp critical(gamut_study_make)
   if (trace)
     status = make(study, worker, outcome, trace, &run);
   if (status == GAMUT_OK)
@@ -129,7 +130,6 @@ gamut_status work_run(struct study *study, struct worker *worker, struct outcome
   }
   if (run && status == GAMUT_OK)
     collect(study, run, outcome);
-#pragma omp critical(gamut_study_make)
   run_free(run);
   trace_free(trace);
   outcome->wall = clock_now(CLOCK_MONOTONIC) - wall;
