@@ -58,6 +58,17 @@ static int bare_threads(const struct gamut_run *run)
   return 1;
 }
 
+/* A cube in which the places of the suites lie. */
+static bool bare_domain(const struct gamut_run *run, double lower[3], double upper[3])
+{
+  (void)run;
+  for (int k = 0; k < 3; k++) {
+    lower[k] = 0.0;
+    upper[k] = 0.1;
+  }
+  return true;
+}
+
 static const struct gamut_host bare_host = {
     .size = sizeof(struct gamut_host),
     .fail = bare_fail,
@@ -73,6 +84,8 @@ static const struct gamut_host bare_host = {
     .allocate = bare_allocate,
     .release = bare_release,
     .threads = bare_threads,
+    .domain = bare_domain,
+    .note = bare_warn,
 };
 
 static void give_host(struct values *values)

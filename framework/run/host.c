@@ -46,6 +46,16 @@ static void host_warn(struct gamut_run *run, const char *format, ...)
   trace_warn_at(run->trace, NULL, NULL, NULL, "%s", text);
 }
 
+static void host_note(struct gamut_run *run, const char *format, ...)
+{
+  char text[1024];
+  va_list arguments;
+  va_start(arguments, format);
+  vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  trace_note(run->trace, "%s", text);
+}
+
 static size_t host_bodies(const struct gamut_run *run)
 {
   return run->scene->bodies;
@@ -297,4 +307,5 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .stream = host_stream,
                                     .realisation = host_realisation,
                                     .sample = host_sample,
-                                    .domain = host_domain};
+                                    .domain = host_domain,
+                                    .note = host_note};

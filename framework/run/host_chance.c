@@ -167,14 +167,17 @@ gamut_status host_sample(struct gamut_run *run, const struct gamut_values *value
 /* ---- parameters at points ------------------------------------------------------------------------
  */
 
-/* Standard normal numbers of a field become values of the parameter: its distribution is kept. */
+/* Numbers of a field become values of the parameter: its distribution is kept. */
 static void translate(const struct chance *chance, const struct distribution *d, size_t count,
                       double *number)
 {
   bool other = offsetof(struct field_operations, below) < chance->ops->size && chance->ops->below;
-  for (size_t i = 0; i < count; i++)
-    number[i] = other ? distribution_quantile(d, chance->ops->below(chance->self, number[i]))
-                      : distribution_of_normal(d, number[i]);
+  const double most = 1.0 - 0x1p-53;
+  for (size_t i = 0; i < count; i++) {
+    double u = other ? chance->ops->below(chance->self, number[i]) : NAN;
+    number[i] = isnan(u) ? distribution_of_normal(d, number[i])
+                         : distribution_quantile(d, fmin(fmax(u, 1.0 - most), most));
+  }
 }
 
 static gamut_status draw_one(struct gamut_run *run, const struct values *values, size_t index,

@@ -273,6 +273,8 @@ struct gamut_host {
   /* Box around the bodies of the scene, in the axes of its geometry (0 in the others); false where
    * no body has a shape. */
   bool (*domain)(const struct gamut_run *, double lower[3], double upper[3]);
+  /* Tells people something that is as it should be. */
+  void (*note)(struct gamut_run *, const char *format, ...);
 };
 
 /* Every run begins with its host; the rest is the core's. */
