@@ -49,6 +49,8 @@
  *   measures:                          what a quantity can be
  *     pressure: {unit: Pa, at: point, formula: "-(stress_xx + stress_yy + stress_zz) / 3", doc: ..}
  *     extent: {unit: m, at: body, arguments: {axis: {type: choice, choices: [x, y, z]}}, doc: ..}
+ *     stress_strain: {unit: Pa, at: run, against: strain, doc: ..}   a curve over another measure of
+ *     the plugin with the same `at` and no arguments, recorded at every step
  *     `at: point` measures are per point (a formula over components of fields such as stress_xx, or
  *     the name of a field); `at: body` and `at: run` are scalars from the plugin's measure
  *     operation.
@@ -115,6 +117,7 @@ struct kernel_task {
 enum measure_at { MEASURE_POINT, MEASURE_BODY, MEASURE_RUN };
 struct measure {
   const char *name, *unit, *formula, *doc; enum measure_at at;
+  const struct measure *against; /* null, or the measure of the same plugin that is the axis */
   struct parameter *argument; size_t arguments;
 };
 

@@ -55,7 +55,7 @@ static bool is_measurable(const char *name, const char *const *names, size_t cou
 static void read_measure(struct reader *reader, const struct tree *node, const char *const *names,
                          size_t count, struct measure *measure)
 {
-  static const char *const keys[] = {"unit", "at", "formula", "doc", "arguments"};
+  static const char *const keys[] = {"unit", "at", "formula", "doc", "arguments", "against"};
   static const char *const places[] = {"point", "body", "run"};
   measure->name = node->key;
   measure->unit = "1";
@@ -85,6 +85,23 @@ static void read_measure(struct reader *reader, const struct tree *node, const c
       read_parameters(reader, tree_get(node, "arguments"), false, &measure->argument);
 }
 
+/* The measure that is a curve's axis. */
+static void read_against(struct reader *reader, const struct tree *node, struct measure *measure)
+{
+  const struct descriptor *d = reader->descriptor;
+  const char *name = read_text(reader, node, "against", false);
+  if (!name)
+    return;
+  for (size_t i = 0; i < d->measures; i++)
+    if (strcmp(d->measure[i].name, name) == 0)
+      measure->against = &d->measure[i];
+  const struct measure *axis = measure->against;
+  if (!axis || axis == measure || axis->at != measure->at || axis->arguments ||
+      axis->at == MEASURE_POINT)
+    fault(reader, tree_get(node, "against"), "another measure at the same body or run, no arguments",
+          "measure '%s' cannot be taken against '%s'", measure->name, name);
+}
+
 static void read_measures(struct reader *reader, const struct tree *node)
 {
   struct descriptor *d = reader->descriptor;
@@ -99,6 +116,8 @@ static void read_measures(struct reader *reader, const struct tree *node)
   d->measure = reader_keep(reader, node->children, sizeof *d->measure);
   for (size_t i = 0; i < node->children; i++)
     read_measure(reader, node->child[i], names, count, &d->measure[d->measures++]);
+  for (size_t i = 0; i < node->children; i++)
+    read_against(reader, node->child[i], &d->measure[i]);
 }
 
 static void read_axis(struct reader *reader, const struct tree *node)

@@ -48,6 +48,12 @@ struct history *history_new(const struct quantity *quantity, double end)
   h->axis = "time";
   h->axis_unit = "s";
   h->every = quantity->every > 0 ? quantity->every : end / SAMPLES_BY_DEFAULT;
+  const struct reduction *reduction = &quantity->reduction;
+  bool last_only = reduction->kind == REDUCE_AT && reduction->at_end;
+  h->grows = !(end > 0);
+  h->every_step =
+      (quantity->measure && quantity->measure->against) || (!(h->every > 0) && !last_only);
+  h->grows |= h->every_step;
   double samples = h->every > 0 ? ceil(end / h->every) + 3 : 3;
   if (samples < (double)(PTRDIFF_MAX / (ptrdiff_t)sizeof(double))) {
     h->capacity = (size_t)samples;
@@ -70,10 +76,30 @@ void history_free(struct history *h)
   free(h);
 }
 
+static bool grow(struct history *h)
+{
+  size_t capacity = 2 * h->capacity + 256;
+  double *time = realloc(h->time, capacity * sizeof *time);
+  if (time)
+    h->time = time;
+  double *value = realloc(h->value, capacity * sizeof *value);
+  if (value)
+    h->value = value;
+  if (!time || !value)
+    return false;
+  h->capacity = capacity;
+  return true;
+}
+
 static void sample(struct history *h, double time, double value)
 {
-  if (h->count == h->capacity)
-    return; /* a run that goes past its end has no place for more */
+  /* A run that goes past its end has no place for more. */
+  if (h->count == h->capacity && !h->grows)
+    return;
+  if (h->count == h->capacity && !grow(h)) {
+    h->failed = true;
+    return;
+  }
   h->time[h->count] = time;
   h->value[h->count] = value;
   ++h->count;
@@ -81,6 +107,12 @@ static void sample(struct history *h, double time, double value)
 
 void history_tell(struct history *h, double time, double value, bool final)
 {
+  if (h->every_step) {
+    if (!final || !h->has_last)
+      sample(h, time, value);
+    h->has_last = true;
+    return;
+  }
   if (!h->has_last) {
     sample(h, time, value);
   } else if (h->every > 0 && time > h->last_time) {
@@ -89,7 +121,7 @@ void history_tell(struct history *h, double time, double value, bool final)
     for (;;) {
       double next = (floor(h->time[h->count - 1] / h->every + 0.5) + 1) * h->every;
       /* the last place is kept for the end */
-      if (next > time + (final ? -tolerance : 0) || h->count + 1 >= h->capacity)
+      if (next > time + (final ? -tolerance : 0) || (h->count + 1 >= h->capacity && !h->grows))
         break;
       sample(h, next, next >= time ? value : h->last_value + slope * (next - h->last_time));
     }

@@ -8,7 +8,8 @@
 #include "scene/scene.h"
 
 /* A recorded history. Times never change the step: samples lie at multiples of `every` (and at 0
- * and the end), interpolated linearly between the steps around them. */
+ * and the end), interpolated linearly between the steps around them. A curve against another
+ * measure, and a history of a run whose end is not known, hold every step as it was. */
 struct history {
   const struct quantity *quantity;
   const char *unit;             /* of the measure */
@@ -18,13 +19,15 @@ struct history {
   size_t count, capacity;
   double last_time, last_value;
   bool has_last;
+  bool every_step, grows;  /* no sampling; memory is taken on the way */
+  bool failed;             /* and was not there */
 };
 /* Null when the memory does not suffice for the samples. The caller may set unit, axis, axis_unit.
  */
 struct history *history_new(const struct quantity *, double end);
 void history_free(struct history *);
-/* Tells the value now; called at the start and after every step, in order of time. No allocation.
- */
+/* Tells the value now; called at the start and after every step, in order of time. Takes memory only
+ * where every step is kept or the end is not known. */
 void history_tell(struct history *, double time, double value, bool final);
 
 /* The value of a reduction over a history, with its unit (the measure's, s, or unit/s). False with

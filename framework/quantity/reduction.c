@@ -46,9 +46,23 @@ static double window_value(const struct window *w, size_t i)
   return w->history->value[w->first + i - 1];
 }
 
+/* A curve over another measure may go back along it: a loop. Only its last value is one number. */
+static bool goes_back(const struct history *h)
+{
+  for (size_t i = 1; h->every_step && i < h->count; ++i) {
+    if (h->time[i] < h->time[i - 1])
+      return true;
+  }
+  return false;
+}
+
 static bool window_open(const struct reduction *r, const struct history *h, struct window *w,
                         char *why, size_t size)
 {
+  if (goes_back(h) && !(r->kind == REDUCE_AT && r->at_end)) {
+    snprintf(why, size, "the curve goes back along its axis, %s", h->axis);
+    return false;
+  }
   double begin = h->time[0], end = h->time[h->count - 1];
   double tolerance = 1e-9 * (h->every > 0 ? h->every : end - begin);
   *w = (struct window){.history = h, .from = fmax(r->from, begin), .to = fmin(r->to, end)};

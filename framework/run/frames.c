@@ -77,6 +77,11 @@ gamut_status frames_create(struct gamut_run *run)
 {
   gamut_status status = GAMUT_OK;
   const struct scene *scene = run->scene;
+  if (scene->output_every < 0.0 && !(run->end > 0.0))
+    return trace_fail(run->trace, GAMUT_SCENE,
+                      "outputs.frames counts frames up to an end that %s does not know; state "
+                      "`every`",
+                      scene->solver.descriptor->id);
   run->column = calloc(scene->output_fields + 1, sizeof *run->column);
   if (!run->column)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
@@ -245,6 +250,8 @@ gamut_status frames_due(struct gamut_run *run)
     return GAMUT_OK;
   if (every < 0.0)
     every = run->end / -every;
+  if (!(every > 0.0))
+    return GAMUT_OK;
   if (run->time * (1.0 + 1e-12) < (double)(run->frame + 1) * every)
     return GAMUT_OK;
   while (run->time * (1.0 + 1e-12) >= (double)(run->frame + 1) * every)

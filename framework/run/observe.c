@@ -33,6 +33,11 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
     probe->history->axis = solver->axis;
     probe->history->axis_unit = solver->axis_unit;
   }
+  const struct measure *axis = quantity->measure ? quantity->measure->against : NULL;
+  if (axis) {
+    probe->history->axis = axis->name;
+    probe->history->axis_unit = axis->unit;
+  }
   if (from_points(quantity)) {
     if (quantity->measure && quantity->measure->formula)
       TRY(formula_new(run, quantity->measure->formula, &probe->formula));
@@ -136,7 +141,8 @@ static double at_place(const struct gamut_run *run, struct probe *probe)
   return count > 0.0 ? sum / count : NAN;
 }
 
-static gamut_status probe_value(struct gamut_run *run, struct probe *probe, double *value)
+static gamut_status probe_value(struct gamut_run *run, struct probe *probe,
+                                const struct measure *measure, double *value)
 {
   const struct quantity *q = probe->quantity;
   if (from_points(q)) {
@@ -145,21 +151,27 @@ static gamut_status probe_value(struct gamut_run *run, struct probe *probe, doub
   }
   const struct gamut_body *body = q->body >= 0 ? &run->scene->body[q->body] : NULL;
   if (probe->effect && probe->effect->ops->measure)
-    return probe->effect->ops->measure(probe->effect->self, q->measure->name, body, q->arguments,
+    return probe->effect->ops->measure(probe->effect->self, measure->name, body, q->arguments,
                                        value);
   if (!probe->effect && run->solver->measure)
-    return run->solver->measure(run->solver_self, q->measure->name, body, q->arguments, value);
+    return run->solver->measure(run->solver_self, measure->name, body, q->arguments, value);
   return trace_fail(run->trace, GAMUT_PLUGIN,
                     "the measure '%s' is declared, but its plugin has no operation `measure`",
-                    q->measure->name);
+                    measure->name);
 }
 
 static gamut_status tell(struct gamut_run *run, struct probe *probe, bool final)
 {
   gamut_status status;
-  double value = NAN;
-  TRY(probe_value(run, probe, &value));
-  history_tell(probe->history, run->time, value, final);
+  double value = NAN, at = run->time;
+  const struct measure *measure = probe->quantity->measure;
+  TRY(probe_value(run, probe, measure, &value));
+  if (measure && measure->against)
+    TRY(probe_value(run, probe, measure->against, &at));
+  history_tell(probe->history, at, value, final);
+  if (probe->history->failed)
+    status = trace_fail(run->trace, GAMUT_INTERNAL, "out of memory for the curve '%s'",
+                        probe->quantity->name);
 done:
   return status;
 }
@@ -179,8 +191,8 @@ done:
 /* Samples lie at multiples of `every`; rounding may put one a hair beyond the step's end. */
 static bool sample_within(const struct history *history, double until)
 {
-  if (!(history->every > 0.0))
-    return false;
+  if (history->every_step || !(history->every > 0.0))
+    return history->every_step;
   return until * (1.0 + 1e-9) >= (double)history->count * history->every;
 }
 
@@ -193,6 +205,8 @@ gamut_status observe_before(struct gamut_run *run, double step, bool *due)
     if (!sample_within(history, run->time + step))
       continue;
     *due = true;
+    if (history->every_step)
+      continue;
     if (!history->has_last || history->last_time < run->time)
       TRY(tell(run, &run->probe[i], false));
   }

@@ -221,7 +221,7 @@ static void when_read(struct reading *reading, const struct tree *node, struct q
 {
   const struct tree *reduce = tree_get(node, "reduce"), *every = tree_get(node, "every");
   if (reduce)
-    reduction_read(reading, reduce, quantity->measure->unit, &quantity->reduction);
+    reduction_read(reading, reduce, quantity->measure, &quantity->reduction);
   if (every && amount_read(reading, every, "every", axis_unit(reading), &quantity->every) &&
       !(quantity->every > 0))
     blame_value(reading, every, "greater than 0", "'every' is not positive");

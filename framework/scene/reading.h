@@ -155,7 +155,8 @@ bool shape_read(struct reading *, const struct tree *, struct shape *);
 void bodies_check(struct reading *); /* overlaps, domain, cell */
 void effects_read(struct reading *, const struct tree *root);
 void quantities_read(struct reading *, const struct tree *root);
-bool reduction_read(struct reading *, const struct tree *, const char *unit, struct reduction *);
+bool reduction_read(struct reading *, const struct tree *, const struct measure *,
+                    struct reduction *);
 void outputs_read(struct reading *, const struct tree *root);
 void uncertainty_read(struct reading *, const struct tree *root); /* last: lists what is random */
 /* The parameter behind `density` of a material. */

@@ -26,7 +26,7 @@ static const struct form *form_named(const char *name)
   return NULL;
 }
 
-static bool scalar_read(struct reading *reading, const struct tree *node,
+static bool scalar_read(struct reading *reading, const struct tree *node, const char *axis,
                         struct reduction *reduction)
 {
   const char *text = node->text;
@@ -42,7 +42,7 @@ static bool scalar_read(struct reading *reading, const struct tree *node,
     return true;
   }
   if (strncmp(text, "at ", 3) == 0 &&
-      unit_read(reading->units, text + 3, axis_unit(reading), &reduction->from) == UNIT_OK) {
+      unit_read(reading->units, text + 3, axis, &reduction->from) == UNIT_OK) {
     reduction->kind = REDUCE_AT;
     reduction->to = reduction->from;
     return true;
@@ -51,12 +51,14 @@ static bool scalar_read(struct reading *reading, const struct tree *node,
   return false;
 }
 
-bool reduction_read(struct reading *reading, const struct tree *node, const char *unit,
+bool reduction_read(struct reading *reading, const struct tree *node, const struct measure *measure,
                     struct reduction *reduction)
 {
+  const char *unit = measure->unit;
+  const char *axis = measure->against ? measure->against->unit : axis_unit(reading);
   *reduction = (struct reduction){.kind = REDUCE_NONE, .from = 0, .to = INFINITY};
   if (node->kind == TREE_SCALAR)
-    return scalar_read(reading, node, reduction);
+    return scalar_read(reading, node, axis, reduction);
   const struct tree *child = node->children == 1 ? node->child[0] : NULL;
   const struct form *form = child && child->key ? form_named(child->key) : NULL;
   if (!form && child && child->key) {
@@ -75,7 +77,7 @@ bool reduction_read(struct reading *reading, const struct tree *node, const char
   if (form->kind == REDUCE_TIME_OF && !form->time_of_max)
     return amount_read(reading, child, form->name, unit, &reduction->level);
   size_t count;
-  double *window = vector_read(reading, child, form->name, axis_unit(reading), 2, 2, &count);
+  double *window = vector_read(reading, child, form->name, axis, 2, 2, &count);
   bool fine = window && window[0] < window[1];
   if (fine) {
     reduction->from = window[0];

@@ -31,8 +31,13 @@ static gamut_status write_table(struct store *store, struct history *const *hist
 {
   struct text text = {0};
   gamut_status status;
+  const char *axis = count ? history[0]->axis : "time";
+  for (size_t h = 1; h < count; ++h) {
+    if (strcmp(history[h]->axis, axis) != 0)
+      axis = "axis";
+  }
   text_add(&text, "quantity,unit,");
-  text_cell(&text, count ? history[0]->axis : "time");
+  text_cell(&text, axis);
   text_add(&text, ",value\n");
   for (size_t h = 0; h < count; ++h) {
     for (size_t i = 0; i < history[h]->count; ++i) {
