@@ -187,10 +187,10 @@ size_t trace_warnings(const struct trace *trace)
   return seen(trace, MESSAGE_WARNING);
 }
 
-const char *trace_first(const struct trace *trace)
+const char *trace_first(const struct trace *trace, enum message_kind kind)
 {
-  for (size_t k = 0; trace_errors(trace) > 0 && k < trace->count; k++)
-    if (trace->message[k].kind == MESSAGE_ERROR)
+  for (size_t k = 0; seen(trace, kind) > 0 && k < trace->count; k++)
+    if (trace->message[k].kind == kind)
       return trace->message[k].text;
   return NULL;
 }

@@ -187,8 +187,8 @@ static void write_study(const json_t *study, FILE *file)
     return;
   fprintf(file, "study: %s, %.0f runs", word(study, "estimator", "?"), number(study, "asked", 0));
   if (number(study, "failed", 0) > 0)
-    fprintf(file, ", %.0f of them failed: the moments are those of the rest",
-            number(study, "failed", 0));
+    fprintf(file, ", %.0f of them failed%s", number(study, "failed", 0),
+            json_object_get(study, "note") ? ": the moments are those of the rest" : "");
   if (number(cost, "from_log", 0) > 0)
     fprintf(file, ", %.0f taken from the log", number(cost, "from_log", 0));
   fprintf(file, "; %.3g s on %.0f thread%s\n", number(cost, "wall_s", 0),
@@ -199,8 +199,9 @@ static void write_study(const json_t *study, FILE *file)
       fprintf(file, "  and %zu more reasons\n", json_array_size(reasons) - index);
       break;
     }
-    fprintf(file, "  %zu failed: %s\n", json_array_size(json_object_get(entry, "runs")),
-            word(entry, "reason", "?"));
+    const char *reason = word(entry, "reason", "?");
+    fprintf(file, "  %zu failed: %.160s%s\n", json_array_size(json_object_get(entry, "runs")),
+            reason, strlen(reason) > 160 ? " ... (study.csv has it whole)" : "");
   }
 }
 

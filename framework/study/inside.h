@@ -77,6 +77,8 @@ struct study {
   size_t runs, room;
   size_t *asked_on; /* runs asked for so far, one a level */
   size_t finished, failed, repeated; /* repeated: taken from the log */
+  size_t warned;                     /* runs with warnings */
+  char *warning;                     /* the first one's words */
   struct outcome *logged;            /* by number; done where the log has it */
   size_t logs;
   int log; /* -1: none */

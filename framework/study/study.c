@@ -96,6 +96,7 @@ void study_free(struct study *study)
     outcome_clear(&study->outcome[i]);
   for (size_t i = 0; i < study->logs; i++)
     outcome_clear(&study->logged[i]);
+  free(study->warning);
   free(study->measured);
   free(study->outcome);
   free(study->logged);
@@ -337,6 +338,9 @@ gamut_status study_run(struct study *study, const char *folder, struct trace *tr
   TRY(prepare(study, folder));
   status = run_batches(study);
   study->wall = now() - begun;
+  if (study->warned)
+    trace_warn_at(trace, NULL, NULL, NULL, "%zu of %zu runs had warnings; one of them: %s",
+                  study->warned, study->runs, study->warning ? study->warning : "");
   status = write_all(study, folder, status);
 done:
   log_close(study);

@@ -63,14 +63,16 @@ static void add_curve(const struct study *study, const struct measured *m, json_
   free(kept);
 }
 
-static json_t *quantities_json(const struct study *study, bool reported)
+static json_t *quantities_json(const struct study *study, gamut_status status)
 {
   json_t *all = json_object();
   for (size_t i = 0; i < study->quantities; i++) {
     const struct measured *m = &study->measured[i];
     json_t *entry = json_pack("{s:s}", "unit", m->unit);
-    if (!reported)
-      json_object_set_new(entry, "reason", json_string("the study has not come to its end"));
+    if (status != GAMUT_OK)
+      json_object_set_new(entry, "reason",
+                          json_string(status == GAMUT_NUMERICS ? "too many runs failed"
+                                                               : "the study is not at its end"));
     else if (m->curve)
       add_curve(study, m, entry);
     else
@@ -182,7 +184,7 @@ static json_t *cost_json(const struct study *study)
   return entry;
 }
 
-static json_t *study_json(const struct study *study)
+static json_t *study_json(const struct study *study, gamut_status status)
 {
   json_t *entry = json_object();
   json_object_set_new(entry, "estimator", json_string(study->scene->estimator.descriptor->name));
@@ -191,7 +193,7 @@ static json_t *study_json(const struct study *study)
   json_object_set_new(entry, "done", json_integer((json_int_t)(study->finished - study->failed)));
   json_object_set_new(entry, "failed", json_integer((json_int_t)study->failed));
   json_object_set_new(entry, "reasons", reasons_json(study));
-  if (study->failed)
+  if (study->failed && status == GAMUT_OK)
     json_object_set_new(entry, "note",
                         json_string("the moments are those of the runs that did not fail"));
   if (study->levels)
@@ -214,8 +216,8 @@ char *study_summary(const struct study *study, gamut_status status)
   json_object_set_new(root, "status", json_string(ending));
   json_object_set_new(root, "seed", json_integer((json_int_t)scene->seed));
   json_object_set_new(root, "plugins", plugins_json(study->registry));
-  json_object_set_new(root, "quantities", quantities_json(study, status == GAMUT_OK));
-  json_object_set_new(root, "study", study_json(study));
+  json_object_set_new(root, "quantities", quantities_json(study, status));
+  json_object_set_new(root, "study", study_json(study, status));
   json_object_set_new(root, "cost", cost_json(study));
   char *text = json_dumps(root, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
   json_decref(root);

@@ -101,6 +101,20 @@ static void collect(const struct study *study, const struct gamut_run *run,
     values_take(study, run, outcome->value);
 }
 
+/* Warnings come from many runs at once: they are counted, the first one is told. */
+static void take_warning(struct study *study, const struct trace *trace)
+{
+  const char *words = trace_first(trace, MESSAGE_WARNING);
+  if (!words)
+    return;
+#pragma omp critical(gamut_study_warning)
+  {
+    study->warned++;
+    if (!study->warning)
+      study->warning = strdup(words);
+  }
+}
+
 /* A mistake of the numbers or of a draw is this run's alone; what is wrong with the program, with a
  * plugin or with the machine ends the study. */
 static bool ends_run_only(gamut_status status)
@@ -121,16 +135,17 @@ gamut_status work_run(struct study *study, struct worker *worker, struct outcome
   if (status == GAMUT_OK)
     status = run_march(run, trace);
   if (ends_run_only(status)) {
-    const char *words = trace_first(trace);
+    const char *words = trace_first(trace, MESSAGE_ERROR);
     outcome->reason = strdup(words ? words : status_text(status));
     status = outcome->reason ? GAMUT_OK : GAMUT_INTERNAL;
   } else if (status != GAMUT_OK && status != GAMUT_STOPPED) {
-    const char *words = trace_first(trace);
+    const char *words = trace_first(trace, MESSAGE_ERROR);
     trace_fail(study->trace, status, "%s", words ? words : status_text(status));
   }
   if (run && status == GAMUT_OK)
     collect(study, run, outcome);
   run_free(run);
+  take_warning(study, trace);
   trace_free(trace);
   outcome->wall = clock_now(CLOCK_MONOTONIC) - wall;
   outcome->cpu = clock_now(CLOCK_THREAD_CPUTIME_ID) - cpu;

@@ -1,0 +1,185 @@
+"""Studies: tables against single runs and against moments taken here, bits, failures, draws."""
+import math
+import os
+import tempfile
+
+import h5py
+import numpy
+
+from scenes import DRIVER, PLATE, STRENGTH, column, content, summary, table, write
+from tap import done, figure, gamut, report
+
+
+def relative(got, expected):
+    return abs(got - expected) / abs(expected)
+
+
+def sweep_grid(folder):
+    scene = write(folder, "sweep.yaml", PLATE + """uncertainty:
+  estimator:
+    model: sweep
+    over:
+      solver.cell: [2 mm, 1 mm]
+      bodies.flyer.velocity: [[300 m/s], [400 m/s], [500 m/s]]
+""")
+    out = os.path.join(folder, "sweep")
+    answer = gamut("run", scene, "-o", out)
+    if not report(answer.code == 0, "a sweep over cells and velocities runs", answer):
+        return
+    rows = table(out)
+    report([(r["solver.cell"], r["bodies.flyer.velocity"]) for r in rows]
+           == [(c, f"[{v} m/s]") for c in ("2 mm", "1 mm") for v in (300, 400, 500)],
+           "a grid of six, the last path fastest")
+    worst = 0
+    for row in (rows[0], rows[5]):
+        single = gamut("run", scene, "--json", "-o", os.path.join(folder, "single"), "--force",
+                       "--set", "solver.cell=" + row["solver.cell"], "--set",
+                       "bodies.flyer.velocity=" + row["bodies.flyer.velocity"], "--set",
+                       "uncertainty={}")
+        report("2 random parameters are taken at their mean" in single.said,
+               "without an estimator a run says that it takes the means", single)
+        for name in ("peak", "arrival"):
+            value = single.json()["quantities"][name]["value"]
+            key = next(k for k in row if k.split(" ")[0] == name)
+            worst = max(worst, abs(value - float(row[key])))
+    figure(worst, 0, "a row of a sweep is the single run, difference")
+    said = summary(out)
+    peaks = column(rows, "peak [Pa]")
+    figure(relative(said["quantities"]["peak"]["mean"], numpy.mean(peaks)), 1e-14, "mean of a sweep")
+    report(said["quantities"]["peak"]["mean_error"] is None, "a sweep states no error")
+    report(said["study"]["levels"][1]["set"]["bodies.flyer.velocity"] == "[400 m/s]"
+           and said["study"]["asked"] == said["study"]["done"] == 6, "summary: levels and runs")
+    answer = gamut("run", scene, "-o", os.path.join(folder, "zip"), "--set",
+                   "uncertainty.estimator.combine=zip", "--set",
+                   "uncertainty.estimator.over={solver.cell: [2 mm, 1 mm], solver.end: [1 us, 2 us]}")
+    rows = table(os.path.join(folder, "zip")) if answer.code == 0 else []
+    report([(r["solver.cell"], r["solver.end"]) for r in rows] == [("2 mm", "1 us"),
+                                                                   ("1 mm", "2 us")],
+           "side by side", answer)
+    curve = summary(os.path.join(folder, "zip"))["quantities"]["pressure"]
+    figure(abs(curve["times"][-1] - 1e-6), 1e-12, "curves are cut to the overlap, end")
+
+
+def moments(values):
+    """Mean, variance and their standard errors, in numpy."""
+    n = len(values)
+    mean, variance = numpy.mean(values, 0), numpy.var(values, 0, ddof=1)
+    fourth = numpy.mean((values - mean) ** 4, 0)
+    return mean, variance, numpy.sqrt(variance / n), numpy.sqrt(
+        (fourth - (n - 3) / (n - 1) * variance ** 2) / n)
+
+
+def monte_carlo(folder):
+    scene = write(folder, "plate.yaml",
+                  PLATE + "uncertainty: {estimator: {model: monte_carlo, runs: 20}, seed: 3}\n")
+    out = [os.path.join(folder, f"threads_{n}") for n in (1, 2, 3)]
+    for n, one in enumerate(out, 1):
+        answer = gamut("run", scene, "-o", one, "--threads", str(n), "--json")
+        if not report(answer.code == 0, f"monte_carlo of 20 plates, {n} side by side", answer):
+            return
+    for name in ("study.csv", "history.csv"):
+        report(content(out[0], name) == content(out[1], name) == content(out[2], name),
+               f"{name}: same bits for 1, 2 and 3 threads")
+    said = summary(out[0])
+    report(all(summary(one)["quantities"] == said["quantities"] for one in out),
+           "summary.json: the same numbers")
+    keys = ("mean", "variance", "mean_error", "variance_error")
+    peaks = numpy.array(column(table(out[0]), "peak [Pa]"))
+    for key, expected in zip(keys, moments(peaks)):
+        figure(relative(said["quantities"]["peak"][key], expected), 1e-9, f"{key} of the peak")
+    with h5py.File(os.path.join(out[0], "results.h5")) as file:
+        curve = file["study/curves/pressure"]
+        at = int(numpy.argmax(curve["mean"][:]))
+        for key, expected in zip(keys, moments(curve["runs"][:])):
+            figure(relative(curve[key][at], expected[at]), 1e-9, f"{key} of the curve at its top")
+        report(len(file["study/quantities/peak"]) == 20 and
+               file["study/parameters/materials.copper.eos.C0"].attrs["unit"] in ("m/s", b"m/s"),
+               "results.h5: columns with units")
+        report([s.decode() for s in file["study/status"][:]] == ["ok"] * 20, "results.h5: status")
+    single = gamut("run", scene, "--json", "-o", os.path.join(folder, "one"), "--set",
+                   "uncertainty={}", "--set",
+                   f"materials.copper.density={table(out[0])[7]['materials.copper.density [kg/m3]']}"
+                   " kg/m3", "--set", "materials.copper.eos.C0="
+                   f"{table(out[0])[7]['materials.copper.eos.C0 [m/s]']} m/s")
+    figure(relative(single.json()["quantities"]["peak"]["value"], peaks[7]), 0,
+           "run 7 is the single run with its parameters")
+    answer = gamut("plot", out[0])
+    report(answer.code == 0 or "gnuplot was not found" in answer.said, "plot of a study", answer)
+    with open(os.path.join(out[0], "pictures/history_pressure.gp"), encoding="utf-8") as file:
+        report("filledcurves" in file.read(), "the mean has its band")
+
+
+def draws(folder):
+    """Correlation and laws of what was drawn, within four standard errors."""
+    runs = 400
+    scene = write(folder, "draws.yaml", DRIVER + f"""uncertainty:
+  estimator: {{model: monte_carlo, runs: {runs}}}
+  correlation: [[{STRENGTH}yield_stress, {STRENGTH}hardening_modulus, 0.6]]
+""")
+    out = os.path.join(folder, "draws")
+    answer = gamut("run", scene, "-o", out)
+    if not report(answer.code == 0, "400 runs of one point", answer):
+        return
+    rows = table(out)
+    stress = numpy.array(column(rows, STRENGTH + "yield_stress [Pa]"))
+    modulus = numpy.array(column(rows, STRENGTH + "hardening_modulus [Pa]"))
+    density = numpy.array(column(rows, "materials.metal.density [kg/m3]"))
+    sigma = math.sqrt(math.log(1.01))
+    normal = (numpy.log(stress / 90e6) + sigma ** 2 / 2) / sigma
+    error = 1 / math.sqrt(runs)
+    figure(abs(numpy.corrcoef(normal, modulus)[0, 1] - 0.6), 4 * (1 - 0.36) * error,
+           "correlation of the normal variables, off by")
+    figure(abs(numpy.corrcoef(density, modulus)[0, 1]), 4 * error, "no correlation where none is")
+    figure(abs(normal.mean()), 4 * error, "lognormal: mean of its normal variable")
+    figure(abs(normal.std() - 1), 4 * error / math.sqrt(2), "lognormal: deviation, off by")
+    figure(abs(modulus.mean() / 300e6 - 1), 4 * 0.2 * error, "normal: mean, off by")
+    figure(abs(density.std() / 80 - 1), 4 * error / math.sqrt(2), "random density: deviation")
+    more = os.path.join(folder, "more")
+    gamut("run", scene, "-o", more, "--set", "uncertainty.estimator.runs=10")
+    report(table(more) == rows[:10], "the first runs of a longer study are those of a shorter one")
+
+
+def failures(folder):
+    scene = write(folder, "fail.yaml", PLATE + """uncertainty:
+  estimator: {model: sweep, over: {solver.step: [20 ns, 30 ns, 40 ns, 1 us]}}
+""")
+    out = os.path.join(folder, "fail")
+    answer = gamut("run", scene, "-o", out, "--json")
+    said = answer.json()
+    report(answer.code == 5 and "1 of 4 runs failed" in answer.said,
+           "more failed runs than allowed: exit 5", answer)
+    report(said["status"] == "failed" and "mean" not in said["quantities"]["peak"],
+           "then there are no moments", answer)
+    answer = gamut("run", scene, "-o", out, "--force", "--set", "uncertainty.failures=0.25")
+    rows = table(out)
+    report(answer.code == 0 and [r["status"] for r in rows] == ["ok", "ok", "ok", "failed"],
+           "a share may fail", answer)
+    report("energy was created" in rows[3]["reason"] and rows[3]["peak [Pa]"] == "",
+           "a failed run stays in the table with its reason")
+    said = summary(out)["study"]
+    report(said["failed"] == 1 and said["done"] == 3 and said["reasons"][0]["runs"] == [3]
+           and "did not fail" in said["note"], "summary: who failed, and that moments are the rest's")
+    scene = write(folder, "range.yaml", DRIVER.replace("cv: 0.1, distribution: lognormal", "cv: 0.7")
+                  + "uncertainty: {estimator: {model: monte_carlo, runs: 40}, failures: 0.5}\n")
+    answer = gamut("run", scene, "-o", os.path.join(folder, "range"))
+    rows = table(os.path.join(folder, "range"))
+    bad = [r for r in rows if float(r[STRENGTH + "yield_stress [Pa]"]) < 0]
+    report(answer.code == 0 and bad and all("yield_stress" in r["reason"] for r in bad)
+           and all(r["status"] == "ok" for r in rows if r not in bad),
+           f"{len(bad)} draws outside the physical range fail by name, no other", answer)
+
+
+def without(folder):
+    scene = write(folder, "plain.yaml", DRIVER)
+    answer = gamut("run", scene, "-o", os.path.join(folder, "plain"), "--resume")
+    report(answer.code == 2 and "uncertainty.estimator" in answer.said,
+           "--resume of a scene that is no study: exit 2", answer)
+
+
+with tempfile.TemporaryDirectory() as scratch:
+    sweep_grid(scratch)
+    monte_carlo(scratch)
+    draws(scratch)
+    failures(scratch)
+    without(scratch)
+done()
