@@ -7,6 +7,7 @@
 #include "bar.h"
 
 enum { TURN_T, TURN_S, TURN_PI };
+enum { THREADED = 16 }; /* chunks from which threads are worth waking */
 
 static gamut_status law_new(struct bar *bar, struct family_law *law)
 {
@@ -166,7 +167,7 @@ gamut_status families_evaluate(struct bar *bar, const double *T)
 {
   bool good = true;
 #pragma omp parallel for schedule(static) num_threads(bar->threads) reduction(&& : good)           \
-    if (bar->threads > 1 && bar->families.laws > 1)
+    if (bar->threads > 1 && bar->families.laws >= THREADED)
   for (size_t c = 0; c < bar->families.laws; c++)
     good = evaluate_chunk(bar, c, T) && good;
   return good ? GAMUT_OK

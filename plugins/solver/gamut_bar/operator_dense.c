@@ -12,10 +12,17 @@ struct dense {
   double *entry;
 };
 
+/* Threads cost more to wake than a small product. */
+static bool worthwhile(const struct dense *g)
+{
+  enum { ENTRIES = 2000000 };
+  return g->threads > 1 && g->begin[g->bonds] > ENTRIES;
+}
+
 static void dense_apply(const void *self, const double *x, double *y)
 {
   const struct dense *g = self;
-#pragma omp parallel for schedule(static) num_threads(g->threads) if (g->threads > 1)
+#pragma omp parallel for schedule(static) num_threads(g->threads) if (worthwhile(g))
   for (size_t p = 0; p < g->bonds; p++) {
     const double *row = g->entry + g->begin[p], *from = x + g->first[p];
     size_t count = g->begin[p + 1] - g->begin[p];
@@ -78,7 +85,7 @@ gamut_status dense_new(struct bar *bar, const double *noise, struct pair_kernel 
   double widest = largest(n, bar->spread);
   if (!g)
     return GAMUT_INTERNAL;
-  *g = (struct dense){.bonds = n, .threads = n >= 1000 ? bar->threads : 1};
+  *g = (struct dense){.bonds = n, .threads = bar->threads};
   g->begin = gamut_allocate(run, label, (n + 1) * sizeof *g->begin);
   g->first = gamut_allocate(run, label, n * sizeof *g->first);
   if (!g->begin || !g->first)
@@ -92,7 +99,7 @@ gamut_status dense_new(struct bar *bar, const double *noise, struct pair_kernel 
   g->entry = gamut_allocate(run, label, g->begin[n] * sizeof *g->entry);
   if (!g->entry)
     return GAMUT_INTERNAL;
-#pragma omp parallel for schedule(dynamic, 16) num_threads(g->threads) if (g->threads > 1)
+#pragma omp parallel for schedule(dynamic, 16) num_threads(g->threads) if (worthwhile(g))
   for (size_t p = 0; p < n; p++)
     fill_row(bar, g, p, noise);
   *kernel = (struct pair_kernel){dense_apply, g};

@@ -3,7 +3,7 @@
  * (0.3 % of the weights lie beyond three standard deviations). */
 #include "bar.h"
 
-enum { LEAST_BONDS_A_CELL = 2 };
+enum { LEAST_BONDS_A_CELL = 2, THREADED = 20000 };
 
 /* Node k lies at (k - 1) spacing; bonds of cell c lie between nodes c + 1 and c + 2. */
 struct interpolated {
@@ -177,7 +177,9 @@ gamut_status interpolated_new(struct bar *bar, struct pair_kernel *kernel)
     least = fmin(least, bar->spread[i]);
   double wanted = bar->span / least * (double)gamut_integer(bar->values, "nodes_a_spread");
   double most = (double)bar->bonds / LEAST_BONDS_A_CELL;
-  *g = (struct interpolated){.bonds = bar->bonds, .threads = bar->threads};
+  /* Threads cost more to wake than a small product. */
+  *g = (struct interpolated){.bonds = bar->bonds,
+                             .threads = bar->bonds >= THREADED ? bar->threads : 1};
   g->cells = (size_t)ceil(fmin(wanted, most));
   if (g->cells < FEWEST_CELLS)
     return gamut_fail_at(bar->run, bar->values, "operator", "dense",
