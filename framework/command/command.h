@@ -18,8 +18,10 @@ struct command {
 
 /* X(name, function, arguments, one line) */
 #define COMMAND_LIST(X)                                                                            \
-  X("run", command_run, "SCENE [-o DIR] [--set path=value]... [--threads N] [--resume] [--force] "  \
-    "[--retry-failed] [--json]", "runs a scene, or a study of many runs")                          \
+  X("run", command_run,                                                                            \
+    "SCENE [-o DIR] [--set path=value]... [--threads N] [--resume] [--retry-failed] [--force] "    \
+    "[--json]",                                                                                    \
+    "runs a scene, or a study of many runs")                                                       \
   X("check", command_check, "SCENE [--set path=value]...", "validates a scene, runs nothing")      \
   X("explain", command_explain, "SCENE [--set path=value]... [--json]",                            \
     "what a run would do: effects, tasks, fields, bytes")                                          \

@@ -15,8 +15,8 @@ static gamut_status check_study(struct command *command, const char *file,
   if (!study_wanted(scene))
     return GAMUT_OK;
   TRY(overrides_read(command, set, &list));
-  TRY(study_new(file, list.override, list.count, scene, command->registry, command->units,
-                &options, command->trace, &study));
+  TRY(study_new(file, list.override, list.count, scene, command->registry, command->units, &options,
+                command->trace, &study));
 done:
   study_free(study);
   overrides_free(&list);

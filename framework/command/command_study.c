@@ -44,7 +44,8 @@ gamut_status run_study(struct command *command, const struct run_arguments *argu
   runs_progress_free(progress);
   progress = NULL;
   if (ran == GAMUT_STOPPED)
-    trace_note(command->trace, "stopped; study.log in %s has every finished run", arguments->folder);
+    trace_note(command->trace, "stopped; study.log in %s has every finished run",
+               arguments->folder);
   else if (ran == GAMUT_OK || ran == GAMUT_NUMERICS)
     status = show_results(command, arguments, study, ran);
   status = ran != GAMUT_OK ? ran : status;

@@ -25,7 +25,8 @@ void runs_progress_tell(void *progress, size_t done, size_t asked, size_t failed
 void report_summary(const char *summary_json, FILE *);
 
 /* Pictures of a result folder with gnuplot: one PNG a history (history_NAME.png; history.png has
- * them all; of a study the mean with a band of one standard deviation), and the body coloured by a field at the last (or given) frame
+ * them all; of a study the mean with a band of one standard deviation), and the body coloured by a
+ * field at the last (or given) frame
  * (body_FIELD_NNNNNNNN.png): the plane of a 2d scene, mirrored where it is axisymmetric; a slice
  * through the axis in 3d; the field over x in 1d. Data (SI) and .gp scripts stand beside the
  * pictures, so that they can be made again with `gnuplot FILE.gp`. Made in `folder`, or

@@ -14,7 +14,8 @@ struct store;
 
 /* Creates DIR (and its parents). An existing result is refused with GAMUT_OUTPUT unless `force`,
  * which removes only files of a former result: results.h5, results.xdmf, history.csv, summary.json,
- * scene.yaml, study.csv, study.log and what `gamut plot` made in pictures/, and only where results.h5 is one of ours.
+ * scene.yaml, study.csv, study.log and what `gamut plot` made in pictures/, and only where
+ * results.h5 is one of ours.
  * Nothing is made when the scene was wrong: call this late. */
 gamut_status store_open(const char *folder, bool force, struct trace *, struct store **);
 /* Makes the results of a study anew whose study.log, which stays, says what has been run. */

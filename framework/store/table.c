@@ -57,8 +57,7 @@ static herr_t describe(hid_t dataset, const char *unit, const char *meaning)
 static herr_t write_reals(hid_t at, const char *name, const char *unit, const char *meaning,
                           size_t rows, size_t columns, const double *value)
 {
-  hid_t made =
-      hdf5_dataset(at, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rows, columns, value);
+  hid_t made = hdf5_dataset(at, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rows, columns, value);
   return made < 0 ? -1 : describe(made, unit, meaning);
 }
 

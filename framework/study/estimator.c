@@ -90,8 +90,8 @@ gamut_status estimator_new(struct study *study)
                       "%s lacks one of the operations create, destroy, ask, tell, report",
                       instance->descriptor->id);
   struct gamut_batch *batch = &study->batch;
-  *batch = (struct gamut_batch){
-      .parameters = study->parameters, .quantities = values, .capacity = rows};
+  *batch =
+      (struct gamut_batch){.parameters = study->parameters, .quantities = values, .capacity = rows};
   batch->point = calloc(rows * study->parameters + 1, sizeof *batch->point);
   batch->level = calloc(rows, sizeof *batch->level);
   batch->value = study->told = calloc(rows * values + 1, sizeof *study->told);
@@ -99,8 +99,8 @@ gamut_status estimator_new(struct study *study)
   study->asked_on = calloc(study->levels + 1, sizeof *study->asked_on);
   if (!batch->point || !batch->level || !study->told || !moment || !study->asked_on)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
-  study->moments = (struct gamut_moments){moment, moment + values, moment + 2 * values,
-                                          moment + 3 * values};
+  study->moments =
+      (struct gamut_moments){moment, moment + values, moment + 2 * values, moment + 3 * values};
   study->host = (struct estimator_host){.head = {&study_host}, .trace = study->trace};
   give_host(instance->values);
   const struct gamut_study_shape shape = {

@@ -75,7 +75,7 @@ struct study {
 
   struct outcome *outcome; /* in the order of asking */
   size_t runs, room;
-  size_t *asked_on; /* runs asked for so far, one a level */
+  size_t *asked_on;                  /* runs asked for so far, one a level */
   size_t finished, failed, repeated; /* repeated: taken from the log */
   size_t warned;                     /* runs with warnings */
   char *warning;                     /* the first one's words */
@@ -113,8 +113,8 @@ struct worker {
   size_t *parameter; /* which of the study's parameters each of the scene's is */
 };
 void worker_clear(struct worker *);
-/* Makes one run. GAMUT_OK also where it failed (outcome->reason); GAMUT_STOPPED where it was told to
- * stop; else what ends the study. */
+/* Makes one run. GAMUT_OK also where it failed (outcome->reason); GAMUT_STOPPED where it was told
+ * to stop; else what ends the study. */
 gamut_status work_run(struct study *, struct worker *, struct outcome *);
 
 /* log.c: what has been run, line by line. */

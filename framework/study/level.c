@@ -27,7 +27,8 @@ static gamut_status count_levels(struct study *study, const struct tree *list, b
     char path[512];
     if (zip && one->children != study->levels)
       return trace_fail_at(study->trace, GAMUT_SCENE, &one->place,
-                           tree_path(one, path, sizeof path), "lists of one length, or combine: grid",
+                           tree_path(one, path, sizeof path),
+                           "lists of one length, or combine: grid",
                            "side by side, '%.200s' has %zu values where '%.200s' has %zu", one->key,
                            one->children, list->child[0]->key, study->levels);
     if (!zip)

@@ -1,4 +1,4 @@
-/* study.log: one line a finished run, with exact numbers and a sum over the line, forced to the disk.
+/* study.log: one line a finished run, exact numbers, a sum over the line, forced to the disk.
  *
  *   gamut-study 1 DIGEST
  *   curve QUANTITY COUNT AXIS...
@@ -226,8 +226,7 @@ static bool logged_room(struct study *study, uint64_t number)
   if (number < study->logs)
     return true;
   size_t count = 2 * study->logs > number ? 2 * study->logs : (size_t)number + 64;
-  struct outcome *grown =
-      number < RUNS_MAX ? realloc(study->logged, count * sizeof *grown) : NULL;
+  struct outcome *grown = number < RUNS_MAX ? realloc(study->logged, count * sizeof *grown) : NULL;
   if (!grown)
     return false;
   memset(grown + study->logs, 0, (count - study->logs) * sizeof *grown);
@@ -245,8 +244,7 @@ static bool read_run(struct study *study, char *text)
   outcome_clear(o);
   bool good = next_whole(&text, &level) && next_whole(&text, &o->realisation) &&
               next_whole(&text, &o->steps) && next_whole(&text, &o->points) &&
-              next_number(&text, &o->wall) && next_number(&text, &o->cpu) &&
-              outcome_room(study, o);
+              next_number(&text, &o->wall) && next_number(&text, &o->cpu) && outcome_room(study, o);
   o->level = level;
   for (size_t i = 0; good && i < study->parameters; i++)
     good = next_number(&text, &o->parameter[i]);
@@ -337,9 +335,9 @@ gamut_status log_resume(struct study *study, const char *folder, bool *there)
     goto done;
   TRY(open_file(study, path, 0));
   file = fopen(path, "r");
-  status = file ? read_all(study, path, file)
-                : trace_fail(study->trace, GAMUT_OUTPUT, "cannot read '%s': %s", path,
-                             strerror(errno));
+  status =
+      file ? read_all(study, path, file)
+           : trace_fail(study->trace, GAMUT_OUTPUT, "cannot read '%s': %s", path, strerror(errno));
 done:
   if (file)
     fclose(file);

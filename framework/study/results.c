@@ -28,8 +28,7 @@ static double *number_column(struct table *table, const char *group, const char 
                              const char *unit, const char *meaning)
 {
   double *value = keep(table, calloc(table->rows + 1, sizeof *value));
-  table->column[table->columns++] =
-      (struct table_column){group, name, unit, meaning, value, NULL};
+  table->column[table->columns++] = (struct table_column){group, name, unit, meaning, value, NULL};
   return value;
 }
 
@@ -37,8 +36,7 @@ static const char **text_column(struct table *table, const char *group, const ch
                                 const char *meaning)
 {
   const char **text = keep(table, calloc(table->rows + 1, sizeof *text));
-  table->column[table->columns++] =
-      (struct table_column){group, name, NULL, meaning, NULL, text};
+  table->column[table->columns++] = (struct table_column){group, name, NULL, meaning, NULL, text};
   return text;
 }
 
@@ -81,9 +79,8 @@ static void add_numbers(struct table *table, const struct study *study)
     const struct random_parameter *random = &study->scene->random_parameter[i];
     if (is_varied(study, random->path))
       continue;
-    double *value =
-        number_column(table, "parameters", random->path, random->parameter->unit,
-                      random->parameter->doc);
+    double *value = number_column(table, "parameters", random->path, random->parameter->unit,
+                                  random->parameter->doc);
     for (size_t r = 0; value && r < table->rows; r++)
       value[r] = study->outcome[r].parameter[i];
   }

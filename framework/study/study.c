@@ -117,8 +117,8 @@ static gamut_status recall(struct study *study, size_t number)
   struct outcome *logged = &study->logged[number];
   bool same = logged->level == wanted->level && logged->realisation == wanted->realisation;
   for (size_t i = 0; i < study->parameters; i++)
-    same = same && fabs(logged->parameter[i] - wanted->parameter[i]) <=
-                       1e-9 * fabs(wanted->parameter[i]);
+    same = same &&
+           fabs(logged->parameter[i] - wanted->parameter[i]) <= 1e-9 * fabs(wanted->parameter[i]);
   if (!same)
     return trace_fail(study->trace, GAMUT_OUTPUT,
                       "run %zu of the log is not the run that the estimator asks for", number);
@@ -262,8 +262,8 @@ done:
 /* ---- the whole ----------------------------------------------------------------------------------
  */
 
-/* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends the
- * program leaves it whole. */
+/* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends
+ * the program leaves it whole. */
 static gamut_status begin(struct study *study, const char *folder)
 {
   gamut_status status = GAMUT_OK;

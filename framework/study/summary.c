@@ -89,9 +89,9 @@ static json_t *plugins_json(const struct registry *registry)
     const struct descriptor *d = registry_at(registry, i);
     const char *level = registry_level(registry, d);
     if (registry_is_open(registry, d))
-      json_array_append_new(all, json_pack("{s:s, s:s, s:s, s:s}", "id", d->id, "version",
-                                           d->version, "digest", d->digest, "level",
-                                           level ? level : "baseline"));
+      json_array_append_new(all,
+                            json_pack("{s:s, s:s, s:s, s:s}", "id", d->id, "version", d->version,
+                                      "digest", d->digest, "level", level ? level : "baseline"));
   }
   return all;
 }

@@ -91,8 +91,7 @@ done:
   return status;
 }
 
-static void collect(const struct study *study, const struct gamut_run *run,
-                    struct outcome *outcome)
+static void collect(const struct study *study, const struct gamut_run *run, struct outcome *outcome)
 {
   const struct run_cost cost = run_cost_of(run);
   outcome->steps = cost.steps;

@@ -37,8 +37,8 @@ static void test_values(void)
     for (double z = -3; z <= 3; z += 0.125)
       worst = fmax(worst, fabs(distribution_below(&d[i], distribution_of_normal(&d[i], z)) -
                                normal_below(z)));
-    snprintf(name, sizeof name, "%s%s: probability of a normal variable's value",
-             names[d[i].kind], d[i].truncated ? ", truncated" : "");
+    snprintf(name, sizeof name, "%s%s: probability of a normal variable's value", names[d[i].kind],
+             d[i].truncated ? ", truncated" : "");
     tap_absolute(name, worst, 0, 1e-12);
     bool finite = true, rising = true;
     for (double z = -12; z < 12; z += 0.5) {
@@ -72,8 +72,8 @@ static void test_matrix(void)
 static void test_draws(void)
 {
   enum { N = 20000 };
-  static const struct distribution normal = {DISTRIBUTION_NORMAL, 10, 2, -INFINITY, INFINITY,
-                                             false};
+  static const struct distribution normal = {DISTRIBUTION_NORMAL, 10,       2,
+                                             -INFINITY,           INFINITY, false};
   static const double matrix[9] = {1, 0.5, 0.2, 0.5, 1, -0.3, 0.2, -0.3, 1};
   struct random_parameter random[3] = {
       {.distribution = &normal}, {.distribution = &normal}, {.distribution = &normal}};
