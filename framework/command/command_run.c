@@ -76,7 +76,7 @@ done:
 static void say_means(struct command *command, const struct scene *scene)
 {
   size_t count = scene->random_parameters;
-  if (scene->random)
+  if (count > 0)
     trace_note(command->trace,
                "%zu random parameter%s taken at %s mean: a study needs uncertainty.estimator, such "
                "as {model: monte_carlo, runs: 100}",
@@ -86,7 +86,7 @@ static void say_means(struct command *command, const struct scene *scene)
 static gamut_status run_scene(struct command *command, const struct run_arguments *arguments,
                               struct scene *scene)
 {
-  gamut_status status = GAMUT_OK, marched = GAMUT_OK;
+  gamut_status status = GAMUT_OK, marched;
   struct gamut_run *run = NULL;
   struct store *store = NULL;
   struct progress *progress = NULL;
@@ -108,6 +108,9 @@ static gamut_status run_scene(struct command *command, const struct run_argument
   options.progress = progress_tell;
   options.progress_self = progress;
   TRY(run_new(scene, command->registry, &options, command->trace, &run));
+  status = run_start(run, command->trace);
+  if (status == GAMUT_SCENE)
+    goto done;
   TRY(store_open(arguments->folder, arguments->force, command->trace, &store));
   run_record(run, store);
   TRY(store_scene(store, scene->tree, command->trace));

@@ -7,6 +7,9 @@
 /* How often the progress is told, in wall seconds. */
 static const double telling = 0.1;
 
+/* More steps than a year of computing has. */
+static const double STEPS_MAX = 1e13;
+
 static double clock_now(clockid_t clock)
 {
   struct timespec now;
@@ -23,17 +26,26 @@ static void set_uniform_field(struct gamut_run *run, const char *name, double va
 
 gamut_status march_start(struct gamut_run *run)
 {
-  gamut_status status = GAMUT_OK;
+  gamut_status status;
   if (run->started)
-    return GAMUT_OK;
+    return run->start;
   run->started = true;
   set_uniform_field(run, "time_step", 0.0);
   TRY(run->solver->start(run->solver_self));
+  TRY(host_laws_check(run));
+  TRY(start_check(run));
   TRY(stop_check(run));
   ledger_start(run);
   TRY(observe_start(run));
 done:
+  run->start = status;
   return status;
+}
+
+gamut_status run_start(struct gamut_run *run, struct trace *trace)
+{
+  run->trace = trace;
+  return march_start(run);
 }
 
 static gamut_status choose_step(struct gamut_run *run, double *step)
@@ -53,6 +65,10 @@ static gamut_status choose_step(struct gamut_run *run, double *step)
   if (!(*step >= 0.0) || (run->end > 0.0 && *step > left))
     status = trace_fail(run->trace, GAMUT_NUMERICS,
                         "the solver asks for a step of %g s at t = %g s", *step, run->time);
+  else if (run->end > 0.0 && *step > 0.0 && left > STEPS_MAX * *step)
+    status = trace_fail_at(run->trace, GAMUT_NUMERICS, NULL, "solver.end",
+                           "speeds and stresses too large, or a forced step too short",
+                           "at t = %g s a step is %g s: the run would never end", run->time, *step);
 done:
   return status;
 }

@@ -36,6 +36,9 @@ void run_free(struct gamut_run *);
 /* Where frames go; before run_march (borrowed). Without it nothing is written. It comes after run_new
  * so that a scene whose plugins fail leaves nothing on the disk. */
 void run_record(struct gamut_run *, struct store *);
+/* The initial state, unless it stands already; run_march does it where nobody did. What only the
+ * solver can see of a scene's faults shows here, before a store is opened. */
+gamut_status run_start(struct gamut_run *, struct trace *);
 /* From start to end of the axis. On a failure the last state is written as a frame where a store is
  * open. */
 gamut_status run_march(struct gamut_run *, struct trace *);

@@ -29,6 +29,33 @@ static void describe_state(const struct gamut_run *run, const struct point_set *
   }
 }
 
+gamut_status start_check(struct gamut_run *run)
+{
+  const struct field *velocity = fields_find(run->fields, "velocity");
+  const struct field *position = fields_find(run->fields, "position");
+  if (!velocity || !velocity->stored || !position || !position->stored)
+    return GAMUT_OK;
+  for (size_t s = 0; s < run->scene->bodies; s++) {
+    const struct point_set *set = run->set[s];
+    const struct tree *node = tree_get(run->scene->body[s].node, "velocity");
+    for (size_t i = 0; i < set->open.slots; i++) {
+      double x[3] = {0.0, 0.0, 0.0}, v[3] = {0.0, 0.0, 0.0};
+      for (unsigned k = 0; k < 3; k++) {
+        const double *place = set_stored(set, position->handle, k);
+        const double *speed = set_stored(set, velocity->handle, k);
+        x[k] = place && k < position->handle.components ? place[i] : 0.0;
+        v[k] = speed && k < velocity->handle.components ? speed[i] : 0.0;
+      }
+      if (set->id[i] >= 0 && !(isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2])))
+        return trace_fail_at(run->trace, GAMUT_SCENE, node ? &node->place : NULL, NULL,
+                             "arithmetic that has a value all over the body",
+                             "the velocity of body '%s' at (%g, %g, %g) m is (%g, %g, %g) m/s",
+                             set->open.body, x[0], x[1], x[2], v[0], v[1], v[2]);
+    }
+  }
+  return GAMUT_OK;
+}
+
 static double speed_squared(const struct point_set *set, const struct field *velocity, size_t slot)
 {
   double sum = 0.0;

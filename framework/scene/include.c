@@ -33,17 +33,18 @@ static void drop_key(struct tree *node, const char *key)
     }
 }
 
-/* Where a key `model` names a plugin: solver, materials.*.*, effects.*, uncertainty.estimator. */
+/* Where a key `model` names a plugin: solver, materials.*.*, effects.*, uncertainty.estimator. Names
+ * may hold dots, so that steps are counted, not dots. */
 static bool names_plugin(const struct tree *node)
 {
   char path[PATH_SIZE];
   tree_path(node, path, sizeof path);
-  size_t dots = 0;
-  for (const char *c = path; *c; c++)
-    dots += *c == '.';
+  size_t steps = 0;
+  for (const struct tree *at = node; at->parent; at = at->parent)
+    steps++;
   return strcmp(path, "solver") == 0 || strcmp(path, "uncertainty.estimator") == 0 ||
-         (strncmp(path, "effects.", 8) == 0 && dots == 1) ||
-         (strncmp(path, "materials.", 10) == 0 && dots == 2);
+         (strncmp(path, "effects.", 8) == 0 && steps == 2) ||
+         (strncmp(path, "materials.", 10) == 0 && steps == 3);
 }
 
 /* Parameters of one plugin mean nothing to another: where `over` names another model than `base`,
@@ -257,6 +258,14 @@ static bool sets_model(const struct scene_override *override)
   return length > 6 && strcmp(override->path + length - 6, ".model") == 0;
 }
 
+/* What is over by the time that overrides are put in. */
+static bool belongs_to_file(const char *path)
+{
+  size_t length = strcspn(path, ".[");
+  return (length == 5 && strncmp(path, "gamut", length) == 0) ||
+         (length == 7 && strncmp(path, "include", length) == 0);
+}
+
 static void override_put(struct reading *reading, struct tree *root,
                          const struct scene_override *override)
 {
@@ -269,6 +278,10 @@ static void override_put(struct reading *reading, struct tree *root,
                         &value);
   else if (!(value = tree_copy(override->node)))
     status = trace_fail(reading->trace, GAMUT_INTERNAL, "out of memory");
+  if (status == GAMUT_OK && belongs_to_file(override->path))
+    status = trace_fail_at(reading->trace, GAMUT_USAGE, &value->place, override->path,
+                           "write it in a scene of its own", "'%s' belongs to a file",
+                           override->path);
   if (status == GAMUT_OK && sets_model(override)) {
     snprintf(parent, sizeof parent, "%.*s", (int)strlen(override->path) - 6, override->path);
     struct tree *node = tree_at(root, parent);
@@ -279,6 +292,8 @@ static void override_put(struct reading *reading, struct tree *root,
   }
   if (status == GAMUT_OK)
     status = tree_put(root, override->path, value, reading->trace);
+  else
+    tree_free(value);
   if (status != GAMUT_OK) {
     reading->faults++;
     reading->first = reading->first ? reading->first : status;

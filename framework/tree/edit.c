@@ -114,8 +114,8 @@ gamut_status tree_put(struct tree *base, const char *path, struct tree *value, s
   struct tree *at = base;
   struct step step;
   for (const char *rest = path; *rest != '\0';) {
-    rest = path_step(rest, rest == path, &step);
-    struct tree *child = path_child(at, &step);
+    struct tree *child;
+    rest = path_enter(at, rest, rest == path, &step, &child);
     if (child != NULL) {
       at = child;
       continue;

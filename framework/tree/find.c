@@ -52,17 +52,39 @@ struct tree *path_child(const struct tree *tree, const struct step *step)
   return NULL;
 }
 
+const char *path_enter(const struct tree *tree, const char *path, bool first, struct step *step,
+                       struct tree **child)
+{
+  const char *rest = path_step(path, first, step);
+  *child = rest != NULL ? path_child(tree, step) : NULL;
+  if (rest == NULL || tree->kind != TREE_MAPPING)
+    return rest;
+  struct step longer = *step, next;
+  for (const char *end = rest; end != NULL && *end == '.';) {
+    end = path_step(end, false, &next);
+    if (end == NULL)
+      break;
+    longer.length = (size_t)(next.word + next.length - longer.word);
+    struct tree *found = path_child(tree, &longer);
+    if (found != NULL) {
+      *step = longer;
+      *child = found;
+      rest = end;
+    }
+  }
+  return rest;
+}
+
 struct tree *tree_at(const struct tree *tree, const char *path)
 {
-  const struct tree *at = tree;
+  struct tree *at = (struct tree *)tree;
   for (const char *rest = path; at != NULL && *rest != '\0';) {
     struct step step;
-    rest = path_step(rest, rest == path, &step);
+    rest = path_enter(at, rest, rest == path, &step, &at);
     if (rest == NULL)
       return NULL;
-    at = path_child(at, &step);
   }
-  return (struct tree *)at;
+  return at;
 }
 
 static size_t index_in_parent(const struct tree *tree)

@@ -52,6 +52,10 @@ struct step {
  */
 const char *path_step(const char *path, bool first, struct step *);
 struct tree *path_child(const struct tree *, const struct step *);
+/* The same, with the child that the step leads to, null if it is not there. A key may hold dots
+ * ("diameter_at_0.2L"): of the keys that are there the longest that fits is taken. */
+const char *path_enter(const struct tree *, const char *path, bool first, struct step *,
+                       struct tree **child);
 
 /* tree/source.c: the whole file; *text is allocated. */
 gamut_status source_load(const char *file, gamut_status blame, struct trace *, char **text,

@@ -38,7 +38,8 @@ void tree_free(struct tree *root); /* a root and all below; accepts null */
 
 /* Child of a mapping by key; null if absent or if `t` is no mapping (or null). */
 struct tree *tree_get(const struct tree *t, const char *key);
-/* By scene path "bodies.bar.shape.cylinder.length"; sequence items by number ("a.0" or "a[0]"). */
+/* By scene path "bodies.bar.shape.cylinder.length"; sequence items by number ("a.0" or "a[0]"). Of
+ * keys with dots the longest that is there is meant. */
 struct tree *tree_at(const struct tree *t, const char *path);
 /* Writes the node's scene path, without the root. Returns buffer. */
 char *tree_path(const struct tree *t, char *buffer, size_t size);

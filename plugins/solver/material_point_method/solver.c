@@ -231,7 +231,13 @@ static gamut_status next(void *self, double *step)
 {
   struct model *m = self;
   const double left = *step;
-  *step = fmin(allowed_step(m), left);
+  const double allowed = allowed_step(m);
+  if (!(allowed > 0.0) || isnan(m->omega_squared))
+    return gamut_fail(m->run, GAMUT_NUMERICS,
+                      "no time step is short enough: fastest node %g m/s, (sound speed / cell)^2 = "
+                      "%g 1/s2",
+                      m->nodes.speed, m->omega_squared);
+  *step = fmin(allowed, left);
   /* the last two steps share what is left, so that none is tiny */
   if (m->fixed_step == 0.0 && *step < left && left < 2.0 * *step)
     *step = 0.5 * left;
