@@ -108,6 +108,7 @@ struct gamut_run {
   size_t frame;
   double wall, cpu;
   bool started;
+  gamut_status start; /* what came of it */
 };
 
 extern const struct gamut_host run_host;
@@ -120,6 +121,8 @@ gamut_status run_add_task(struct gamut_run *, const char *owner, const struct ga
 
 /* host_law.c */
 void host_laws_free(struct gamut_run *);
+/* After the solver's start: whether every random field of a law's parameters was asked for. */
+gamut_status host_laws_check(struct gamut_run *);
 
 /* host_chance.c */
 gamut_status chance_open(struct gamut_run *);
@@ -129,6 +132,8 @@ void chance_free(struct gamut_run *);
 gamut_status chance_draw(struct gamut_run *, const struct pointwise *, const struct values *,
                          size_t count, const double *const position[3], const int64_t *id,
                          double *const *number);
+/* Random field `index` that was made: what varies and its plugin; false past the end. */
+bool chance_at(const struct gamut_run *, size_t index, const char **path, const char **plugin);
 /* Fills the stored fields of such parameters of a set's material and of effects. */
 gamut_status chance_scatter(struct gamut_run *, const struct point_set *);
 
@@ -174,6 +179,8 @@ gamut_status march_start(struct gamut_run *);
 gamut_status march_step(struct gamut_run *, bool *more);
 
 /* stop.c */
+/* A body's velocity is arithmetic in space, which may have no value somewhere. */
+gamut_status start_check(struct gamut_run *);
 gamut_status stop_check(struct gamut_run *);
 /* Names the fastest point with its state; "" where points have no velocity. */
 void describe_fastest(const struct gamut_run *, char *text, size_t size);
