@@ -47,7 +47,7 @@ struct families {
   double *internal, *stress, *plastic, *direction; /* as committed */
   /* of the last evaluation */
   double *trial_stress, *trial_plastic, *trial_slope;
-  unsigned char *trial_count, *turned;
+  unsigned char *trial_count, *below; /* turns that count; those below the turn under way */
 };
 
 gamut_status families_new(struct bar *, size_t depth);

@@ -3,7 +3,8 @@
 
 #include "bar.h"
 
-static const double enough = 1e-12;
+/* Of the largest T; where rounding allows no more, the second will do. */
+static const double wanted = 2e-14, enough = 1e-11;
 
 /* Residual at T; leaves w pi in bar->flow and the stress of every bond in bar->stress. */
 static gamut_status residual(struct bar *bar, const double *T, double *r)
@@ -30,8 +31,9 @@ static gamut_status residual(struct bar *bar, const double *T, double *r)
 
 /* Goes from T along `way` by the largest of 1, 1/2, .. that helps; residual in r. */
 static gamut_status line_search(struct bar *bar, const double *way, double before, double *T,
-                                double *r)
+                                double *r, bool *better)
 {
+  *better = true;
   static const double least = 1e-4;
   double *from = bar->work[9];
   memcpy(from, T, bar->bonds * sizeof *T);
@@ -43,7 +45,10 @@ static gamut_status line_search(struct bar *bar, const double *way, double befor
     if (status != GAMUT_OK)
       return status;
     double now = largest(bar->bonds, r);
-    if (now < before * (1.0 - 0.1 * share) || now <= enough * largest(bar->bonds, T))
+    if (now < before * (1.0 - 0.1 * share) || now <= wanted * largest(bar->bonds, T))
+      return GAMUT_OK;
+    *better = fmax(now, before) > enough * largest(bar->bonds, T);
+    if (!*better)
       return GAMUT_OK;
     if (share < least)
       return gamut_fail(bar->run, GAMUT_NUMERICS,
@@ -84,9 +89,10 @@ gamut_status equilibrium(struct bar *bar, double force)
   if (bar->dynamic)
     inertia_begin(bar, force);
   gamut_status status = residual(bar, T, r);
-  for (int round = 0; status == GAMUT_OK; round++) {
+  bool better = true;
+  for (int round = 0; status == GAMUT_OK && better; round++) {
     double most = largest(n, r);
-    if (most <= enough * fmax(largest(n, T), 1.0))
+    if (most <= wanted * fmax(largest(n, T), 1.0))
       break;
     if (round == ROUNDS || !(most < HUGE_VAL))
       return gamut_fail(bar->run, GAMUT_NUMERICS,
@@ -97,7 +103,7 @@ gamut_status equilibrium(struct bar *bar, double force)
       bar->work[11][i] = -r[i];
     status = solve_tangent(bar, bar->families.trial_slope, bar->work[11], way);
     if (status == GAMUT_OK)
-      status = line_search(bar, way, most, T, r);
+      status = line_search(bar, way, most, T, r, &better);
     bar->newton++;
   }
   if (status == GAMUT_OK)

@@ -52,8 +52,8 @@ gamut_status families_new(struct bar *bar, size_t depth)
       return GAMUT_INTERNAL;
   f->count = gamut_allocate(bar->run, label, n);
   f->trial_count = gamut_allocate(bar->run, label, n);
-  f->turned = gamut_allocate(bar->run, label, n);
-  return f->count && f->trial_count && f->turned ? GAMUT_OK : GAMUT_INTERNAL;
+  f->below = gamut_allocate(bar->run, label, n);
+  return f->count && f->trial_count && f->below ? GAMUT_OK : GAMUT_INTERNAL;
 }
 
 /* ---- memory ------------------------------------------------------------------------------------- */
@@ -61,24 +61,51 @@ gamut_status families_new(struct bar *bar, size_t depth)
 /* What family i remembers at `level`, with the turn under way on top. */
 static double remembered(const struct families *f, size_t bonds, size_t i, size_t level, int what)
 {
-  if (level < f->count[i])
+  if (level < f->below[i])
     return f->turn[what][level * bonds + i];
   return what == TURN_T ? f->internal[i] : what == TURN_S ? f->stress[i] : f->plastic[i];
 }
 
+/* Entries that stay below a turn made here. A turn at the end of the branch closes a loop, though
+ * rounding may leave it short of that: what the loop began with is then replaced, not kept. */
+static size_t below_turn(const struct families *f, size_t bonds, size_t i)
+{
+  static const double same = 1e-9;
+  size_t count = f->count[i];
+  if (count == 0)
+    return 0;
+  double last = f->turn[TURN_T][(count - 1) * bonds + i];
+  double before = count > 1 ? f->turn[TURN_T][(count - 2) * bonds + i] : -last;
+  if (fabs(f->internal[i] - before) > same * fabs(before - last))
+    return count;
+  return count > 1 ? count - 2 : 0;
+}
+
 /* How many turns still count at T: closed loops are forgotten. Equal ends close a loop, but for
- * rounding. */
+ * rounding. Back past the last turn, the branch before it goes on. */
 static size_t turns_left(const struct families *f, size_t bonds, size_t i, size_t count, double T)
 {
   static const double rounding = 1e-13;
   while (count > 0) {
     double last = remembered(f, bonds, i, count - 1, TURN_T);
     double before = count > 1 ? remembered(f, bonds, i, count - 2, TURN_T) : -last;
-    if (!(fabs(T - last) > fabs(before - last) * (1.0 + rounding)))
+    if ((T - last) * (before - last) < 0.0)
+      count--;
+    else if (fabs(T - last) > fabs(before - last) * (1.0 + rounding))
+      count = count > 1 ? count - 2 : 0;
+    else
       break;
-    count = count > 1 ? count - 2 : 0;
   }
   return count;
+}
+
+/* A turn counts once the branch has left its straight part: small vibrations leave no memory. */
+static bool turns(const struct families *f, size_t bonds, size_t i, double T)
+{
+  static const double straight = 1e-15; /* plastic strain */
+  size_t count = f->count[i];
+  double begin = count ? f->turn[TURN_PI][(count - 1) * bonds + i] : 0.0;
+  return (T - f->internal[i]) * f->direction[i] < 0.0 && fabs(f->plastic[i] - begin) > straight;
 }
 
 /* ---- the curve ---------------------------------------------------------------------------------- */
@@ -143,8 +170,9 @@ static bool evaluate_chunk(struct bar *bar, size_t chunk, const double *T)
   struct curve c = {.from = from, .count = n - from < FAMILY_CHUNK ? n - from : FAMILY_CHUNK};
   for (size_t k = 0; k < c.count; k++) {
     size_t i = from + k;
-    f->turned[i] = (T[i] - f->internal[i]) * f->direction[i] < 0.0;
-    size_t count = turns_left(f, n, i, (size_t)f->count[i] + f->turned[i], T[i]);
+    bool turned = turns(f, n, i, T[i]);
+    f->below[i] = turned ? (unsigned char)below_turn(f, n, i) : f->count[i];
+    size_t count = turns_left(f, n, i, (size_t)f->below[i] + turned, T[i]);
     f->trial_count[i] = (unsigned char)count;
     double begin = count ? remembered(f, n, i, count - 1, TURN_T) : 0.0;
     c.t[k] = fabs(T[i] - begin) * (count ? 0.5 : 1.0);
@@ -184,7 +212,7 @@ gamut_status families_commit(struct bar *bar, const double *T)
   for (size_t i = 0; i < n; i++) {
     size_t count = f->trial_count[i];
     /* The turn under way is kept if its branch is still followed. */
-    if (count > f->count[i]) {
+    if (count > f->below[i]) {
       if (count > f->depth)
         return gamut_fail(bar->run, GAMUT_NUMERICS,
                           "the load turns within itself more than %zu times at bond %zu", f->depth,

@@ -68,6 +68,8 @@ static size_t memory_depth(const struct bar *bar)
   gamut_table(bar->values, "load_table", &rows);
   if (strcmp(kind, "table") == 0)
     depth += rows;
+  if (strcmp(gamut_text(bar->values, "dynamics"), "off") != 0)
+    depth = MOST; /* a bar that comes to rest turns within itself */
   return depth < MOST ? depth : MOST;
 }
 

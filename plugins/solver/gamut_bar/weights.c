@@ -86,6 +86,11 @@ static double spread_of(const struct potential *u, size_t p)
 
 static void find_spreads(struct bar *bar)
 {
+  if (gamut_given(bar->values, "weight_deviation")) {
+    for (size_t p = 0; p < bar->bonds; p++)
+      bar->spread[p] = gamut_real(bar->values, "weight_deviation");
+    return;
+  }
   struct potential u = {.place = bar->place, .energy = bar->work[0], .least = HUGE_VAL,
                         .exponent = gamut_real(bar->values, "pair_exponent"),
                         .block_least = bar->work[1], .bonds = bar->bonds};
@@ -117,7 +122,7 @@ static void row_sums(const struct bar *bar, double *r, double *work)
 static gamut_status scale_rows(struct bar *bar)
 {
   enum { ROUNDS = 1000 };
-  static const double enough = 1e-13, enough_of_rounding = 1e-10;
+  static const double enough = 4e-16, enough_of_rounding = 1e-12;
   double *r = bar->work[0], *work = bar->work[1], worst = 0.0, before = HUGE_VAL;
   for (size_t i = 0; i < bar->bonds; i++)
     bar->scale[i] = 1.0 / sqrt(bar->area);
