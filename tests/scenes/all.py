@@ -25,9 +25,11 @@ BOUNDS = {
 
 
 def numbers(quantity):
-    if "value" in quantity:
-        return [quantity["value"]]
-    return quantity["values"]
+    """Of a run, or of a study."""
+    for key in ("value", "mean"):
+        if key in quantity:
+            return [quantity[key]]
+    return quantity.get("values", quantity.get("means", []))
 
 
 def check(name):
