@@ -56,7 +56,12 @@ static void add_curve(const struct study *study, const struct measured *m, json_
   json_object_set_new(entry, "mean_errors", picked(moments->mean_error + m->first, kept, count));
   json_object_set_new(entry, "variance_errors",
                       picked(moments->variance_error + m->first, kept, count));
-  if (count < m->count)
+  if (count == 0)
+    json_object_set_new(entry, "reason",
+                        json_sprintf("the runs share no part of the axis '%s', or it goes back and "
+                                     "forth",
+                                     m->axis));
+  else if (count < m->count)
     json_object_set_new(entry, "reason",
                         json_sprintf("%zu of %zu points of the axis are not in every run",
                                      m->count - count, m->count));
