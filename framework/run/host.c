@@ -308,4 +308,5 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .realisation = host_realisation,
                                     .sample = host_sample,
                                     .domain = host_domain,
-                                    .note = host_note};
+                                    .note = host_note,
+                                    .law_places = host_law_places};

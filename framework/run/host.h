@@ -16,6 +16,8 @@ gamut_status host_law(struct gamut_run *, const struct gamut_body *, const char 
                       struct gamut_law **);
 double *host_law_array(struct gamut_law *, const char *name);
 bool host_law_call(struct gamut_law *, const char *operation, size_t count, int64_t *worst);
+gamut_status host_law_places(struct gamut_run *, struct gamut_law *,
+                             const double *const position[3], const int64_t *id);
 const char *host_law_message(const struct gamut_law *, int64_t word);
 
 struct gamut_stream host_stream(const struct gamut_run *, const char *name);

@@ -14,6 +14,7 @@ struct field_operations {
 /* A random field that the scene names, made when it is first asked for. */
 struct chance {
   const struct value *value;
+  char path[256]; /* what it is for, for people */
   const struct field_operations *ops;
   void *self;
   struct chance *next;
@@ -74,6 +75,7 @@ static gamut_status make_field(struct gamut_run *run, const struct value *value,
     goto done;
   }
   TRY(chance->ops->create(run, value->group, &chance->self));
+  tree_path(value->node, chance->path, sizeof chance->path);
   chance->next = run->chance;
   run->chance = chance;
   *out = chance;
@@ -81,6 +83,18 @@ done:
   if (status != GAMUT_OK)
     free(chance);
   return status;
+}
+
+bool chance_at(const struct gamut_run *run, size_t index, const char **path, const char **plugin)
+{
+  const struct chance *chance = run->chance;
+  while (chance && index-- > 0)
+    chance = chance->next;
+  if (!chance)
+    return false;
+  *path = chance->path;
+  *plugin = chance->value->model->id;
+  return true;
 }
 
 static gamut_status find_field(struct gamut_run *run, const struct value *value,

@@ -5,6 +5,10 @@
 #include "run/host.h"
 
 struct gamut_law {
+  const struct instance *instance;
+  const struct values *extra;
+  size_t count;
+  bool placed; /* random fields of its parameters have been drawn */
   struct kernel *kernel;
   struct bench *bench;
   struct gamut_law *next;
@@ -32,6 +36,9 @@ gamut_status host_law(struct gamut_run *run, const struct gamut_body *body, cons
   *out = NULL;
   if (!law)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  law->instance = instance;
+  law->extra = material->extra;
+  law->count = count;
   law->next = run->law;
   run->law = law;
   if (!instance->descriptor)
@@ -44,6 +51,77 @@ gamut_status host_law(struct gamut_run *run, const struct gamut_body *body, cons
   for (size_t i = 0; temperature && i < count; i++)
     temperature[i] = body->temperature;
   *out = law;
+done:
+  return status;
+}
+
+/* Draws the parameters that differ from point to point and writes them to the law's arrays. */
+static gamut_status place_values(struct gamut_run *run, struct gamut_law *law,
+                                 const struct values *values, const struct descriptor *descriptor,
+                                 const double *const position[3], const int64_t *id)
+{
+  gamut_status status = GAMUT_OK;
+  struct pointwise *points = pointwise_new(values, descriptor);
+  if (!points)
+    return GAMUT_OK;
+  double **number = calloc(values->count, sizeof(*number));
+  bool good = number != NULL;
+  for (size_t k = 0; good && k < values->count; k++)
+    if (pointwise_varies(points, k))
+      good = (number[k] = calloc(law->count + 1, sizeof(double))) != NULL;
+  if (good)
+    status = chance_draw(run, points, values, law->count, position, id, number);
+  else
+    status = trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t k = 0; number && k < values->count; k++) {
+    double *array = number[k] ? bench_array(law->bench, values->value[k].parameter->name) : NULL;
+    if (array && status == GAMUT_OK)
+      memcpy(array, number[k], law->count * sizeof *array);
+    free(number[k]);
+  }
+  free(number);
+  pointwise_free(points);
+  return status;
+}
+
+gamut_status host_law_places(struct gamut_run *run, struct gamut_law *law,
+                             const double *const position[3], const int64_t *id)
+{
+  gamut_status status;
+  TRY(place_values(run, law, law->instance->values, law->instance->descriptor, position, id));
+  TRY(place_values(run, law, law->extra, NULL, position, id));
+  law->placed = true;
+done:
+  return status;
+}
+
+/* A field that the solver does not ask for would be left out in silence. */
+static gamut_status check_placed(struct gamut_run *run, const struct values *values,
+                                 const struct descriptor *descriptor)
+{
+  struct pointwise *points = pointwise_new(values, descriptor);
+  size_t first = 0;
+  while (points && !values->value[first].model)
+    first++;
+  pointwise_free(points);
+  if (!points)
+    return GAMUT_OK;
+  const struct value *value = &values->value[first];
+  return trace_fail_at(run->trace, GAMUT_SCENE, value->node ? &value->node->place : NULL,
+                       values->path, "leave 'field' out: then it is one random number",
+                       "%s does not let '%s' vary in space", run->scene->solver.descriptor->id,
+                       value->parameter->name);
+}
+
+gamut_status host_laws_check(struct gamut_run *run)
+{
+  gamut_status status = GAMUT_OK;
+  for (const struct gamut_law *law = run->law; law; law = law->next) {
+    if (law->placed)
+      continue;
+    TRY(check_placed(run, law->instance->values, law->instance->descriptor));
+    TRY(check_placed(run, law->extra, NULL));
+  }
 done:
   return status;
 }

@@ -117,6 +117,15 @@ static json_t *off_json(const struct gamut_run *run)
   return all;
 }
 
+static json_t *chance_json(const struct gamut_run *run)
+{
+  json_t *all = json_object();
+  const char *path, *plugin;
+  for (size_t i = 0; chance_at(run, i, &path, &plugin); i++)
+    json_object_set_new(all, path, json_string(plugin));
+  return all;
+}
+
 static json_t *memory_json(const struct gamut_run *run)
 {
   json_t *all = json_object();
@@ -155,6 +164,7 @@ char *run_explain_json(struct gamut_run *run)
   json_object_set_new(root, "fields", fields_json(run));
   json_object_set_new(root, "points", json_integer((json_int_t)cost.points));
   json_object_set_new(root, "declared_bytes_per_point", json_integer((json_int_t)declared));
+  json_object_set_new(root, "random_fields", chance_json(run));
   json_object_set_new(root, "memory", memory_json(run));
   json_object_set_new(root, "bytes", json_integer((json_int_t)after.bytes));
   json_object_set_new(root, "bytes_per_point", json_real(after.bytes_per_point));
@@ -237,6 +247,13 @@ static void print_fields(const struct gamut_run *run, FILE *file)
   }
 }
 
+static void print_chance(const struct gamut_run *run, FILE *file)
+{
+  const char *path, *plugin;
+  for (size_t i = 0; chance_at(run, i, &path, &plugin); i++)
+    fprintf(file, "%s    %-26s %s\n", i ? "" : "\nrandom fields\n", path, plugin);
+}
+
 static void print_memory(const struct gamut_run *run, size_t declared, FILE *file)
 {
   const char *label;
@@ -266,6 +283,7 @@ void run_explain(struct gamut_run *run, FILE *file)
   print_off(run, file);
   print_fields(run, file);
   bool good = forecast(run, &f);
+  print_chance(run, file);
   print_memory(run, declared_bytes(run, &stored), file);
   if (!good)
     return;

@@ -275,6 +275,10 @@ struct gamut_host {
   bool (*domain)(const struct gamut_run *, double lower[3], double upper[3]);
   /* Tells people something that is as it should be. */
   void (*note)(struct gamut_run *, const char *format, ...);
+  /* Says where the points of a law are: parameters with a random field get their values there. A
+   * scene with such a field is refused if the solver has not said it by the end of its start. */
+  gamut_status (*law_places)(struct gamut_run *, struct gamut_law *, const double *const position[3],
+                             const int64_t *id);
 };
 
 /* Every run begins with its host; the rest is the core's. */

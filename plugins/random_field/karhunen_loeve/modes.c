@@ -130,7 +130,7 @@ static bool gather_modes(struct axis *axis, const double *root, const struct hal
 
 static bool solve_nystrom(struct axis *axis, size_t most)
 {
-  double wanted = 32.0 + 10.0 * axis->ratio;
+  double wanted = 48.0 + 16.0 * axis->ratio;
   const size_t n = axis->nodes = wanted < 512.0 ? (size_t)wanted : 512;
   struct half_problem half[2] = {{0}, {0}};
   double *root = calloc(n, sizeof(double));
