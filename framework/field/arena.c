@@ -3,8 +3,10 @@
 #include <assert.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
-/* Each piece carries its size and label in front, so that giving it back needs no search by size. */
+/* Each piece carries its size and label in front, so that giving it back needs no search by
+ * size. */
 struct piece {
   struct piece *next, *previous;
   size_t bytes;
@@ -22,13 +24,24 @@ struct arena {
   struct label *label;
   size_t labels;
   size_t bytes, peak;
+  size_t limit;
 };
+
+/* Linux promises more memory than there is and kills who uses it: what cannot fit is not asked
+ * for. */
+static size_t memory_of_machine(void)
+{
+  long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
+  return pages > 0 && size > 0 ? (size_t)pages * (size_t)size : SIZE_MAX / 2;
+}
 
 struct arena *arena_new(void)
 {
   struct arena *arena = calloc(1, sizeof *arena);
-  if (arena)
+  if (arena) {
     arena->pieces.next = arena->pieces.previous = &arena->pieces;
+    arena->limit = memory_of_machine();
+  }
   return arena;
 }
 
@@ -64,9 +77,16 @@ static bool label_number(struct arena *arena, const char *text, size_t *number)
   return true;
 }
 
+bool arena_has_room(const struct arena *arena, size_t bytes)
+{
+  return arena->bytes <= arena->limit && bytes <= arena->limit - arena->bytes;
+}
+
 void *arena_take(struct arena *arena, const char *label, size_t bytes)
 {
   size_t number;
+  if (!arena_has_room(arena, bytes))
+    return NULL;
   if (!label_number(arena, label, &number))
     return NULL;
   size_t whole = (HEAD + bytes + 63) & ~(size_t)63;

@@ -42,7 +42,10 @@ struct field *fields_component(const struct fields *, const char *name, unsigned
 struct arena;
 struct arena *arena_new(void);
 void arena_free(struct arena *); /* and everything in it */
-void *arena_take(struct arena *, const char *label, size_t bytes); /* zeroed, 64-byte aligned */
+/* Whether so much more would fit into the memory of this machine. */
+bool arena_has_room(const struct arena *, size_t bytes);
+/* Zeroed, 64-byte aligned; null where it does not fit. */
+void *arena_take(struct arena *, const char *label, size_t bytes);
 void arena_give(struct arena *, void *);
 size_t arena_bytes(const struct arena *);  /* now */
 size_t arena_peak(const struct arena *);

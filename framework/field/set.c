@@ -61,14 +61,25 @@ static double *take_array(struct point_set *set, size_t component, const char *l
   return array ? array + offset : NULL;
 }
 
+/* Bytes of all arrays of a set: asked for before any is touched. */
+static size_t bytes_wanted(const struct point_set *set)
+{
+  size_t arrays = 3;
+  for (size_t i = 0; i < fields_count(set->fields); i++)
+    if (fields_at(set->fields, i)->stored)
+      arrays += fields_at(set->fields, i)->handle.components;
+  return arrays * (set->capacity + SLACK) * sizeof(double);
+}
+
 static gamut_status take_all(struct point_set *set, struct trace *trace)
 {
   size_t components = fields_components(set->fields);
+  size_t ids = set->capacity * sizeof *set->id, spare = (set->capacity + SLACK) * sizeof(double);
+  bool room = arena_has_room(set->arena, bytes_wanted(set));
   set->array = calloc(components ? components : 1, sizeof *set->array);
-  set->id = arena_take(set->arena, "point ids", set->capacity * sizeof *set->id);
-  set->spare_id = arena_take(set->arena, "spare array for sorting", set->capacity * sizeof *set->id);
-  set->spare = arena_take(set->arena, "spare array for sorting",
-                          (set->capacity + SLACK) * sizeof(double));
+  set->id = room ? arena_take(set->arena, "point ids", ids) : NULL;
+  set->spare_id = room ? arena_take(set->arena, "spare array for sorting", ids) : NULL;
+  set->spare = room ? arena_take(set->arena, "spare array for sorting", spare) : NULL;
   bool good = set->array && set->id && set->spare_id && set->spare;
   for (size_t i = 0; good && i < fields_count(set->fields); i++) {
     const struct field *field = fields_at(set->fields, i);
@@ -80,8 +91,10 @@ static gamut_status take_all(struct point_set *set, struct trace *trace)
   }
   set->open.id = set->id;
   return good ? GAMUT_OK
-              : trace_fail(trace, GAMUT_INTERNAL, "no memory for %zu points of body '%s'",
-                           set->open.points, set->open.body);
+              : trace_fail_at(trace, GAMUT_SCENE, NULL, NULL,
+                              "fewer points: a larger cell, or fewer in a cell",
+                              "this machine has not the memory for %zu points of body '%s'",
+                              set->open.points, set->open.body);
 }
 
 gamut_status set_allocate(struct point_set *set, const struct fields *fields, struct trace *trace)
