@@ -108,10 +108,6 @@ static bool copy_text(const char *text, char copy[TEXT_MAX], char *why, size_t s
              TEXT_MAX - 1);
     return false;
   }
-  if (strspn(text, " \t\r\n") == length) {
-    snprintf(why, size, "the formula is empty");
-    return false;
-  }
   memcpy(copy, text, length + 1);
   for (size_t k = 0; k < length; k++) {
     char before = k > 0 ? copy[k - 1] : ' ';

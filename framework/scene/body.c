@@ -31,7 +31,7 @@ static void component_read(struct reading *reading, const struct tree *node,
                     (result == UNIT_MISSING && node->quoted);
   if (result == UNIT_OK)
     return;
-  if (node->kind == TREE_SCALAR && node->text[0] && arithmetic) {
+  if (node->kind == TREE_SCALAR && arithmetic) {
     body->velocity_expression[k] = expression_new(node->text, space, 3, why, sizeof why);
     if (body->velocity_expression[k])
       return;
