@@ -15,8 +15,8 @@
  *     strain: 1}; a sequence of rows or {file: NAME.csv}; of two columns also one number, which is
  *     the row [0, number]), group (members: like parameters), levels (of an estimator: a mapping of
  *     scene paths to lists of values, what a study varies; the choice `combine` beside it says how:
- *     grid, every value with every other, or zip, side by side), plugin (kind: random_field; a plugin
- *     of that kind with its parameters, {model: NAME, ...}).
+ *     grid, every value with every other, or zip, side by side), plugin (kind: random_field; a
+ *     plugin of that kind with its parameters, {model: NAME, ...}).
  *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI
  *     unless they carry a unit: "[a, b)", "(0, inf)".
  *   constraints: ["T_melt > T_room"]   comparisons over real parameters
@@ -32,8 +32,8 @@
  *                                      the vocabulary need not be stated, and agree if they are
  *   scratch: 24                        scratch arrays for the kernel
  *   laws: [eos, strength?]             elasticity: callees; `?`: may be absent (null pointer).
- *                                      solver: laws that it calls itself; it then updates materials by
- *                                      no elasticity, and materials need none
+ *                                      solver: laws that it calls itself; it then updates
+ *                                      materials by no elasticity, and materials need none
  *   inverse: true                      strength: offers the inverse
  *   derivatives: {of: pressure, by: [C0, S1, reference_density]}
  *   variants: [{when: "C == 0", kernel: name, drops: [plastic_strain_rate]}]   `when` over real,
@@ -49,8 +49,8 @@
  *   measures:                          what a quantity can be
  *     pressure: {unit: Pa, at: point, formula: "-(stress_xx + stress_yy + stress_zz) / 3", doc: ..}
  *     extent: {unit: m, at: body, arguments: {axis: {type: choice, choices: [x, y, z]}}, doc: ..}
- *     stress_strain: {unit: Pa, at: run, against: strain, doc: ..}   a curve over another measure of
- *     the plugin with the same `at` and no arguments, recorded at every step
+ *     stress_strain: {unit: Pa, at: run, against: strain, doc: ..}   a curve over another measure
+ *     of the plugin with the same `at` and no arguments, recorded at every step
  *     `at: point` measures are per point (a formula over components of fields such as stress_xx, or
  *     the name of a field); `at: body` and `at: run` are scalars from the plugin's measure
  *     operation.

@@ -98,7 +98,8 @@ static void read_against(struct reader *reader, const struct tree *node, struct 
   const struct measure *axis = measure->against;
   if (!axis || axis == measure || axis->at != measure->at || axis->arguments ||
       axis->at == MEASURE_POINT)
-    fault(reader, tree_get(node, "against"), "another measure at the same body or run, no arguments",
+    fault(reader, tree_get(node, "against"),
+          "another measure at the same body or run, no arguments",
           "measure '%s' cannot be taken against '%s'", measure->name, name);
 }
 

@@ -197,7 +197,8 @@ const struct gamut_use *effect_uses(struct bound_effect *bound, size_t task, siz
   return bound->task[task].use;
 }
 
-/* A plain input means the end of the step unless the plan says that it is not written yet by then. */
+/* A plain input means the end of the step unless the plan says that it is not written yet by then.
+ */
 void effect_resolve(struct bound_effect *bound, size_t task, const struct task *planned)
 {
   for (size_t m = 0; m < bound->materials; m++) {

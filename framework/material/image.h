@@ -46,7 +46,8 @@ double kernel_mean(const struct kernel *, size_t slot);
 void image_follow(struct image *, const struct link *, size_t links, const struct gamut_chunk *,
                   double *zero, double *sink);
 
-/* Links of the slots of one kind (input, output, state) to fields, which are declared on the way. */
+/* Links of the slots of one kind (input, output, state) to fields, which are declared on the way.
+ */
 struct links {
   struct link *link;
   size_t count;

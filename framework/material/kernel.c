@@ -77,9 +77,8 @@ static bool variant_holds(const struct variant *variant, const struct kernel *ke
     name[i] = d->parameter[i].name;
     value[i] = values->value[i].real;
   }
-  struct expression *when = name && value
-                                ? expression_new(variant->when, name, d->parameters, why, sizeof why)
-                                : NULL;
+  struct expression *when =
+      name && value ? expression_new(variant->when, name, d->parameters, why, sizeof why) : NULL;
   *random = false;
   for (size_t i = 0; when && i < d->parameters; i++)
     *random |= expression_uses(when, i) && (values->value[i].random || parameter_varies(kernel, i));
@@ -91,8 +90,8 @@ static bool variant_holds(const struct variant *variant, const struct kernel *ke
   return holds;
 }
 
-/* The first variant whose condition holds takes the place of the main operation; never for parameters
- * that are random, since every run must compute the same formula. */
+/* The first variant whose condition holds takes the place of the main operation; never for
+ * parameters that are random, since every run must compute the same formula. */
 static void choose_variant(struct kernel *kernel)
 {
   const struct descriptor *d = kernel->descriptor;

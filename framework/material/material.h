@@ -15,8 +15,8 @@
 /* A kernel's operations as the core calls them. */
 typedef void (*kernel_function)(const void *block);
 
-/* One plugin instance made ready: its shared object open, its parameters as uniform arrays of `size`
- * values, its chosen variant. Shared by all threads, read-only in a step. */
+/* One plugin instance made ready: its shared object open, its parameters as uniform arrays of
+ * `size` values, its chosen variant. Shared by all threads, read-only in a step. */
 struct kernel;
 gamut_status kernel_new(const struct instance *, struct registry *, struct arena *, size_t size,
                         const struct values *material_extra, double density, struct trace *,
@@ -26,22 +26,24 @@ const struct descriptor *kernel_descriptor(const struct kernel *);
 const struct gamut_plugin *kernel_plugin(const struct kernel *);
 /* The variant in force and the reason, for explain; "" if none. */
 const char *kernel_variant(const struct kernel *);
-/* Operation by number in the generated struct NAME_ops (0: first of the kind). Null if not given. */
+/* Operation by number in the generated struct NAME_ops (0: first of the kind). Null if not given.
+ */
 kernel_function kernel_operation(const struct kernel *, size_t number);
 /* Operation of a task or variant by its name. */
 kernel_function kernel_named(const struct kernel *, const char *name);
 
-/* ---- one kernel alone: eval and conformance ---------------------------------------------------- */
+/* One kernel alone: eval and conformance. */
 
-/* A block with arrays of its own for `count` points: every parameter, input, output, state and scratch
- * array can be set and read by name. Laws that an elasticity kernel wants are bound from `eos` and
- * `strength` (may be null). */
+/* A block with arrays of its own for `count` points: every parameter, input, output, state and
+ * scratch array can be set and read by name. Laws that an elasticity kernel wants are bound from
+ * `eos` and `strength` (may be null). */
 struct bench;
 gamut_status bench_new(const struct kernel *, const struct kernel *eos,
-                       const struct kernel *strength, size_t count, struct trace *, struct bench **);
+                       const struct kernel *strength, size_t count, struct trace *,
+                       struct bench **);
 void bench_free(struct bench *);
-/* Array of a slot by name ("energy", "stress_xx", "plastic_strain_begin", "pressure_by_C0"); null if
- * the kernel has none. */
+/* Array of a slot by name ("energy", "stress_xx", "plastic_strain_begin", "pressure_by_C0"); null
+ * if the kernel has none. */
 double *bench_array(struct bench *, const char *name);
 int64_t *bench_status(struct bench *);
 /* Offers (or withdraws) the derivative arrays. */
@@ -49,12 +51,12 @@ void bench_offer_derivatives(struct bench *, bool offer);
 /* Calls an operation on the first `count` points. */
 void bench_call(struct bench *, kernel_function, size_t count);
 /* First and second derivatives of the plugin's `derivatives: of` output by its real parameters (and
- * reference_density): its own kernel's, or Richardson differences where it has none (or `differences`
- * is true). value[by], second[by * n + other]. */
+ * reference_density): its own kernel's, or Richardson differences where it has none (or
+ * `differences` is true). value[by], second[by * n + other]. */
 gamut_status bench_derivatives(struct bench *, size_t point, bool differences, double *first,
                                double *second);
 
-/* ---- a material in a run ----------------------------------------------------------------------- */
+/* A material in a run. */
 
 struct bound_material;
 /* Declares the material's fields among `fields` and makes blocks for `threads` threads. */
@@ -68,8 +70,8 @@ const struct gamut_use *material_uses(const struct bound_material *, size_t *cou
 void material_update(struct bound_material *, const struct gamut_chunk *);
 /* Counts what the last update of this chunk flagged. Once a step and chunk. */
 void material_tally(struct bound_material *, const struct gamut_chunk *);
-/* The smallest `step_factor` that a point's elasticity gave since the last call: the next step may be at
- * most so many times this one. Infinity where none is given. */
+/* The smallest `step_factor` that a point's elasticity gave since the last call: the next step may
+ * be at most so many times this one. Infinity where none is given. */
 double material_step_factor(struct bound_material *);
 /* Fills temperature and energy of a set's points from its body; energy from pressure where the body
  * gives that (Newton on the eos at zero compression). */
@@ -91,7 +93,7 @@ const struct gamut_use *effect_uses(struct bound_effect *, size_t task, size_t *
 void effect_resolve(struct bound_effect *, size_t task, const struct task *);
 void effect_call(struct bound_effect *, size_t task, size_t material, const struct gamut_chunk *);
 
-/* ---- messages of points ------------------------------------------------------------------------ */
+/* Messages of points. */
 
 /* Counts of what kernels flagged, summed over threads. */
 struct flag_report {

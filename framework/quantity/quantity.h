@@ -26,8 +26,8 @@ struct history {
  */
 struct history *history_new(const struct quantity *, double end);
 void history_free(struct history *);
-/* Tells the value now; called at the start and after every step, in order of time. Takes memory only
- * where every step is kept or the end is not known. */
+/* Tells the value now; called at the start and after every step, in order of time. Takes memory
+ * only where every step is kept or the end is not known. */
 void history_tell(struct history *, double time, double value, bool final);
 
 /* The value of a reduction over a history, with its unit (the measure's, s, or unit/s). False with

@@ -96,7 +96,8 @@ static struct entry *find(const struct registry *registry, const char *id)
   return NULL;
 }
 
-/* A second copy of the same plugin, as where a build tree and an installed gamut meet, is no news. */
+/* A second copy of the same plugin, as where a build tree and an installed gamut meet, is no news.
+ */
 static bool same_edition(const struct descriptor *one, const struct descriptor *other)
 {
   return strcmp(one->version, other->version) == 0 && strcmp(one->digest, other->digest) == 0;

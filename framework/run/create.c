@@ -114,8 +114,8 @@ static gamut_status run_material_job(void *self, const struct gamut_chunk *chunk
   return status;
 }
 
-/* A task that updates materials is registered once a set, since each set's material has fields of its
- * own. */
+/* A task that updates materials is registered once a set, since each set's material has fields of
+ * its own. */
 static gamut_status add_material_task(struct gamut_run *run, const char *owner,
                                       const struct gamut_task *task, size_t set)
 {

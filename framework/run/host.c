@@ -98,7 +98,9 @@ static double host_body_volume(const struct gamut_body *body, unsigned dimension
     return 0.0;
   shape_bounds(shape, x, y);
   if (shape->kind == SHAPE_SPHERE)
-    return dimension == 3 || revolved ? 4.0 / 3.0 * pi * r * r * r : dimension == 2 ? pi * r * r : 2 * r;
+    return dimension == 3 || revolved ? 4.0 / 3.0 * pi * r * r * r
+           : dimension == 2           ? pi * r * r
+                                      : 2 * r;
   if (shape->kind == SHAPE_CYLINDER && (dimension == 3 || revolved))
     return pi * r * r * shape->length;
   if (shape->kind == SHAPE_CYLINDER && dimension == 2 && shape->axis == 2)

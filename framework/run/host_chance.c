@@ -55,7 +55,8 @@ bool host_domain(const struct gamut_run *run, double lower[3], double upper[3])
   return any;
 }
 
-/* ---- random fields -------------------------------------------------------------------------------
+/* ---- random fields
+ * -------------------------------------------------------------------------------
  */
 
 static gamut_status make_field(struct gamut_run *run, const struct value *value,
@@ -178,7 +179,8 @@ gamut_status host_sample(struct gamut_run *run, const struct gamut_values *value
   return *given ? sample_field(run, field, name, count, position, id, value) : GAMUT_OK;
 }
 
-/* ---- parameters at points ------------------------------------------------------------------------
+/* ---- parameters at points
+ * ------------------------------------------------------------------------
  */
 
 /* Numbers of a field become values of the parameter: its distribution is kept. */

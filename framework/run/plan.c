@@ -68,7 +68,7 @@ static const char *field_place(const struct field *field)
   return !field->used ? "unused" : field->stored ? "stored" : "scratch";
 }
 
-/* ---- for programs ------------------------------------------------------------------------------ */
+/* For programs. */
 
 static json_t *tasks_json(const struct gamut_run *run)
 {
@@ -177,7 +177,7 @@ char *run_explain_json(struct gamut_run *run)
   return text;
 }
 
-/* ---- for people -------------------------------------------------------------------------------- */
+/* For people. */
 
 static void print_tasks(const struct gamut_run *run, FILE *file)
 {
@@ -287,6 +287,7 @@ void run_explain(struct gamut_run *run, FILE *file)
   print_memory(run, declared_bytes(run, &stored), file);
   if (!good)
     return;
-  fprintf(file, "\ntime step %.4g s%s%s: about %.0f steps, %.3g s on this machine (from %d steps)\n",
+  fprintf(file,
+          "\ntime step %.4g s%s%s: about %.0f steps, %.3g s on this machine (from %d steps)\n",
           f.step, *f.limit ? ", limited by " : "", f.limit, f.steps, f.seconds, TRIAL_STEPS);
 }

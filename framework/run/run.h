@@ -16,12 +16,13 @@
 
 struct run_options {
   int threads;                   /* 0: what OpenMP says, but no more than there is work for */
-  /* Called about ten times a second on a terminal and at every tenth of the run elsewhere; null: silent. */
+  /* Called about ten times a second on a terminal and at every tenth of the run elsewhere; null:
+   * silent. */
   void (*progress)(void *, double done, double time, uint64_t step, double rate);
   void *progress_self;
-  /* Null, or becomes nonzero when the user wants out: the step is finished, the last frame is written
-   * and run_march returns GAMUT_STOPPED without an error in the trace; the summary then says
-   * "status": "interrupted". */
+  /* Null, or becomes nonzero when the user wants out: the step is finished, the last frame is
+   * written and run_march returns GAMUT_STOPPED without an error in the trace; the summary then
+   * says "status": "interrupted". */
   const volatile sig_atomic_t *stop;
   /* What chance in the run hangs on: the scene's seed (0: as scene->seed), and which run of a study
    * this is, from 0. */
@@ -33,8 +34,8 @@ struct gamut_run;
 gamut_status run_new(struct scene *, struct registry *, const struct run_options *, struct trace *,
                      struct gamut_run **);
 void run_free(struct gamut_run *);
-/* Where frames go; before run_march (borrowed). Without it nothing is written. It comes after run_new
- * so that a scene whose plugins fail leaves nothing on the disk. */
+/* Where frames go; before run_march (borrowed). Without it nothing is written. It comes after
+ * run_new so that a scene whose plugins fail leaves nothing on the disk. */
 void run_record(struct gamut_run *, struct store *);
 /* The initial state, unless it stands already; run_march does it where nobody did. What only the
  * solver can see of a scene's faults shows here, before a store is opened. */

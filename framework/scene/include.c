@@ -33,8 +33,8 @@ static void drop_key(struct tree *node, const char *key)
     }
 }
 
-/* Where a key `model` names a plugin: solver, materials.*.*, effects.*, uncertainty.estimator. Names
- * may hold dots, so that steps are counted, not dots. */
+/* Where a key `model` names a plugin: solver, materials.*.*, effects.*, uncertainty.estimator.
+ * Names may hold dots, so that steps are counted, not dots. */
 static bool names_plugin(const struct tree *node)
 {
   char path[PATH_SIZE];

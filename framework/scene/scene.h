@@ -31,10 +31,10 @@
 #include "tree/tree.h"
 #include "unit/unit.h"
 
-/* A random parameter of a kernel may vary in space: {mean:, cv:, field: {model: karhunen_loeve, ...}}
- * with a plugin of kind random_field. Every point then has a value of its own, whose distribution is
- * the stated one; it is no parameter of a study, which sees another realisation of the field in each
- * run. A run without a study takes realisation 0.
+/* A random parameter of a kernel may vary in space: {mean:, cv:, field: {model: karhunen_loeve,
+ * ...}} with a plugin of kind random_field. Every point then has a value of its own, whose
+ * distribution is the stated one; it is no parameter of a study, which sees another realisation of
+ * the field in each run. A run without a study takes realisation 0.
  */
 
 /* One checked value. Which members count depends on parameter->type. */
@@ -216,8 +216,9 @@ void values_free(struct values *);
 gamut_status values_set(struct values *, const struct descriptor *, size_t parameter, double real,
                         struct trace *);
 
-/* Parameters of one plugin that differ from point to point: those with a random field, and those that
- * follow from them. Null where there is none. `descriptor` of given sets and constraints, or null. */
+/* Parameters of one plugin that differ from point to point: those with a random field, and those
+ * that follow from them. Null where there is none. `descriptor` of given sets and constraints, or
+ * null. */
 struct pointwise;
 struct pointwise *pointwise_new(const struct values *, const struct descriptor *);
 void pointwise_free(struct pointwise *); /* accepts null */

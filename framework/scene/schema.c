@@ -259,7 +259,8 @@ static json_t *definitions(const struct registry *registry)
                    json_pack("{s:s, s:s, s:[s]}", "type", "string", "pattern",
                              "^[-+]?[0-9.]+([eE][-+]?[0-9]+)? ", "examples", "0.4 mm"),
                    "random", random, kind_name(GAMUT_KIND_RANDOM_FIELD),
-                   plugin_schema(registry, GAMUT_KIND_RANDOM_FIELD, NULL), "place", list_of(reference("quantity"), 1, 3), "names",
+                   plugin_schema(registry, GAMUT_KIND_RANDOM_FIELD, NULL), "place",
+                   list_of(reference("quantity"), 1, 3), "names",
                    json_pack("{s:[{s:s}, o]}", "anyOf", "type", "string",
                              list_of(json_pack("{s:s}", "type", "string"), 0, 0)));
 }

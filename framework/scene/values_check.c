@@ -79,8 +79,8 @@ bool given_set_names(const struct descriptor *descriptor, const char *name)
 
 /* A set fits if it holds every member of sets that the scene gives, and the rest of it has
  * defaults. */
-static const struct given_set *choose(const struct values *values, const struct descriptor *descriptor,
-                                      size_t *given)
+static const struct given_set *choose(const struct values *values,
+                                      const struct descriptor *descriptor, size_t *given)
 {
   *given = 0;
   for (size_t i = 0; i < values->count; i++)

@@ -3,7 +3,8 @@
 
 #include "schedule/plan.h"
 
-static bool uses_as(const struct task *task, const struct field *field, bool (*test)(enum gamut_access))
+static bool uses_as(const struct task *task, const struct field *field,
+                    bool (*test)(enum gamut_access))
 {
   for (size_t i = 0; i < task->uses; i++)
     if (task->use[i].field == field && test(task->use[i].access))
@@ -21,9 +22,10 @@ static bool reads_last(enum gamut_access access)
   return access == GAMUT_READ_LAST;
 }
 
-/* Whether `one` must run before `other`, both of one phase. A block is opened before and closed after
- * everything else; otherwise writers come before readers, and readers of what the last step left come
- * before writers. Two that write and read the same keep the order in which they were registered. */
+/* Whether `one` must run before `other`, both of one phase. A block is opened before and closed
+ * after everything else; otherwise writers come before readers, and readers of what the last step
+ * left come before writers. Two that write and read the same keep the order in which they were
+ * registered. */
 static bool must_precede(const struct task *one, const struct task *other)
 {
   if (one->extent != other->extent &&

@@ -1,5 +1,6 @@
-/* Tasks, the graph, what is live. The scheduler keeps the tasks whose results somebody needs, decides
- * which fields are stored, orders the tasks and joins neighbours that work on points into sweeps. */
+/* Tasks, the graph, what is live. The scheduler keeps the tasks whose results somebody needs,
+ * decides which fields are stored, orders the tasks and joins neighbours that work on points into
+ * sweeps. */
 #ifndef GAMUT_SCHEDULE_H
 #define GAMUT_SCHEDULE_H
 
@@ -19,10 +20,11 @@ struct task {
   gamut_status (*run)(void *self, const struct gamut_chunk *);
   void *self;
   size_t only_set;            /* SIZE_MAX: every set; else the set's index (material tasks) */
-  const bool *on_set;         /* borrowed; or null; one a set: whether the task works on it (effects) */
+  const bool *on_set; /* borrowed; or null; one a set: whether the task works on it (effects) */
 };
 
-/* Tasks that run one after the other on a block while it is in cache; or a single GAMUT_ONCE task. */
+/* Tasks that run one after the other on a block while it is in cache; or a single GAMUT_ONCE task.
+ */
 struct sweep {
   bool once;
   struct task **open, **chunk, **close;
@@ -39,19 +41,21 @@ gamut_status schedule_add(struct schedule *, const char *owner, const struct gam
 void schedule_decline(struct schedule *, const char *owner, const char *why);
 /* Somebody outside the tasks reads this field between steps (output, quantity, checkpoint). */
 void schedule_want(struct schedule *, struct field *, const char *why);
-/* Works the plan out. Errors: no provider for a field that is read, unknown phase, a cycle (named). */
+/* Works the plan out. Errors: no provider for a field that is read, unknown phase, a cycle (named).
+ */
 gamut_status schedule_plan(struct schedule *, struct fields *, size_t sets, struct trace *);
 
 size_t schedule_tasks(const struct schedule *);
-const struct task *schedule_task(const struct schedule *, size_t index); /* in order, then the dead */
+/* In order, then the dead. */
+const struct task *schedule_task(const struct schedule *, size_t index);
 size_t schedule_sweeps(const struct schedule *);
 const struct sweep *schedule_sweep(const struct schedule *, size_t index);
 size_t schedule_declined(const struct schedule *);
 void schedule_declined_at(const struct schedule *, size_t index, const char **owner,
                           const char **why);
 
-/* Runs one step: every sweep in order, sets and blocks in parallel, bits independent of the number of
- * threads. Returns the failure of the lowest block. */
+/* Runs one step: every sweep in order, sets and blocks in parallel, bits independent of the number
+ * of threads. Returns the failure of the lowest block. */
 struct march {                /* what a step works on; borrowed */
   struct point_set *const *set;
   size_t sets;

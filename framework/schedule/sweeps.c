@@ -81,8 +81,8 @@ static bool wanted(const struct schedule *schedule, const struct field *field)
   return false;
 }
 
-/* A field needs arrays if it has a history, if somebody outside wants it, or if its values must live
- * from one sweep, or one step, to another. */
+/* A field needs arrays if it has a history, if somebody outside wants it, or if its values must
+ * live from one sweep, or one step, to another. */
 static void decide_storage(const struct schedule *schedule, struct field *field)
 {
   size_t touching = 0;

@@ -96,6 +96,7 @@ static gamut_status append(struct study *study, char *text, size_t size)
   free(whole);
   if (written == (ssize_t)size && fsync(study->log) == 0)
     return GAMUT_OK;
+  log_close(study); /* nothing may follow a line that was cut off */
   return trace_fail(study->trace, GAMUT_OUTPUT, "cannot write " RESULT_LOG ": %s",
                     written < 0 ? strerror(fault) : "the disk took a part only");
 }

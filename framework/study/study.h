@@ -47,8 +47,8 @@ struct study_options {
 struct study;
 /* Whether the scene asks for a study. */
 bool study_wanted(const struct scene *);
-/* `file` and overrides are read again for every level; the overrides are copied, the file's name and
- * the scene are borrowed. Everything is checked before anything runs. */
+/* `file` and overrides are read again for every level; the overrides are copied, the file's name
+ * and the scene are borrowed. Everything is checked before anything runs. */
 gamut_status study_new(const char *file, const struct scene_override *, size_t overrides,
                        struct scene *, struct registry *, const struct units *,
                        const struct study_options *, struct trace *, struct study **);

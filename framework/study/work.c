@@ -46,16 +46,21 @@ static bool map_parameters(const struct study *study, struct worker *worker)
   return worker->parameter != NULL;
 }
 
+/* What the scene warns of was told when the levels were checked. */
 static gamut_status take_scene(const struct study *study, struct worker *worker, size_t level,
                                struct trace *trace)
 {
   if (worker->scene && worker->level == level)
     return GAMUT_OK;
+  struct trace *unheard = trace_new();
   worker_clear(worker);
   worker->level = level;
-  gamut_status status = level_scene(study, level, trace, &worker->scene);
-  if (status == GAMUT_OK && !map_parameters(study, worker))
+  gamut_status status = level_scene(study, level, unheard, &worker->scene);
+  if (status != GAMUT_OK)
+    trace_fail(trace, status, "%s", trace_first(unheard, MESSAGE_ERROR));
+  else if (!map_parameters(study, worker))
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  trace_free(unheard);
   return status;
 }
 

@@ -46,7 +46,8 @@ static void test_names(struct bed *bed)
          "a component knows its field");
 }
 
-/* Reverses the points into two blocks of 16 and 8 slots with padding: more slots than there were. */
+/* Reverses the points into two blocks of 16 and 8 slots with padding: more slots than there were.
+ */
 static void test_arrange(struct bed *bed)
 {
   uint32_t source[24];
@@ -62,7 +63,8 @@ static void test_arrange(struct bed *bed)
   tap_ok(bed->set->id[0] == 19 && mass[0] == 20.0, "the last point is first: id %lld, mass %g",
          (long long)bed->set->id[0], mass[0]);
   tap_ok(bed->set->id[20] == -1 && mass[20] == 0.0, "padding has no id and no mass");
-  tap_ok(set_find(bed->set, 0) == 19 && set_find(bed->set, 77) == SIZE_MAX, "a point is found by id");
+  tap_ok(set_find(bed->set, 0) == 19 && set_find(bed->set, 77) == SIZE_MAX,
+         "a point is found by id");
   const double *stress = set_stored(bed->set, bed->stress->handle, 5);
   tap_ok(stress[23] == 3.0, "padding copies the state: %g", stress[23]);
 }

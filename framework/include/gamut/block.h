@@ -1,13 +1,15 @@
 /* Blocks of material points, as a kernel sees them.
  *
- * A kernel is a pure function of one block. The block is a struct that `gamut header` generates from
- * the plugin's YAML: a count, a status word a point, then one pointer per parameter, input, output,
- * state variable and scratch array, in declared order. All arrays are plain, 64-byte aligned, hold
- * `count` values and are borrowed for the call. Uniform or varying in space: the kernel cannot tell.
+ * A kernel is a pure function of one block. The block is a struct that `gamut header` generates
+ * from the plugin's YAML: a count, a status word a point, then one pointer per parameter, input,
+ * output, state variable and scratch array, in declared order. All arrays are plain, 64-byte
+ * aligned, hold `count` values and are borrowed for the call. Uniform or varying in space: the
+ * kernel cannot tell.
  *
- * Rules. A kernel keeps no state between calls, allocates nothing, prints nothing, writes every output
- * of every point, never writes an input, and calls nothing but <math.h>, <gamut/math.h> and the laws
- * that the core bound into its block. Different threads call it with different blocks at once.
+ * Rules. A kernel keeps no state between calls, allocates nothing, prints nothing, writes every
+ * output of every point, never writes an input, and calls nothing but <math.h>, <gamut/math.h> and
+ * the laws that the core bound into its block. Different threads call it with different blocks at
+ * once.
  */
 #ifndef GAMUT_BLOCK_H
 #define GAMUT_BLOCK_H
@@ -49,11 +51,11 @@ static inline void gamut_flag(int64_t *status, int64_t raised)
 /* A law of the material bound by the core into the block of an elasticity plugin (its callee).
  *
  * The caller writes trial arguments into the argument arrays (scratch of the core, `count` values
- * each, filled with the values at the beginning of the step), calls `evaluate`, and reads the results.
- * It may do so as often as its iteration needs. `lane` lists the points to evaluate (borrowed, `lanes`
- * entries, ascending); null means all. Results of other points are left as they were.
- * The status that a law raised in its last evaluation of a point is counted by the core under the
- * law's own messages; the caller need not look. */
+ * each, filled with the values at the beginning of the step), calls `evaluate`, and reads the
+ * results. It may do so as often as its iteration needs. `lane` lists the points to evaluate
+ * (borrowed, `lanes` entries, ascending); null means all. Results of other points are left as they
+ * were. The status that a law raised in its last evaluation of a point is counted by the core under
+ * the law's own messages; the caller need not look. */
 struct gamut_strength_law {
   void (*evaluate)(const struct gamut_strength_law *law, const uint32_t *lane, size_t lanes);
   double *plastic_strain;      /* argument: equivalent plastic strain, 1 */

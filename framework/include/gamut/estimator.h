@@ -1,5 +1,5 @@
-/* Estimators: moments of quantities under random parameters. An estimator never runs a solver: it is
- * asked for the next parameter points and told the quantities that came back. */
+/* Estimators: moments of quantities under random parameters. An estimator never runs a solver: it
+ * is asked for the next parameter points and told the quantities that came back. */
 #ifndef GAMUT_ESTIMATOR_H
 #define GAMUT_ESTIMATOR_H
 
@@ -35,15 +35,16 @@ struct gamut_moments {
 };
 
 #define GAMUT_ESTIMATOR_OPS(B)                                                                     \
-  /* required. What the study has; the struct is borrowed for the call, its stream may be copied. */ \
-  gamut_status (*create)(struct gamut_run *, const struct gamut_values *,                           \
+  /* required. What the study has; the struct is borrowed for the call, its stream may be copied.  \
+   */                                                                                              \
+  gamut_status (*create)(struct gamut_run *, const struct gamut_values *,                          \
                          const struct gamut_study_shape *, void **self);                           \
   void (*destroy)(void *self);                                                                     \
   gamut_status (*ask)(void *self, struct gamut_batch *);                                           \
   gamut_status (*tell)(void *self, const struct gamut_batch *);                                    \
   gamut_status (*report)(const void *self, struct gamut_moments *);                                \
-  /* required: the whole state as bytes; called with null bytes to learn the size. restore makes    \
-   * a fresh estimator go on exactly where the saved one stood. */                                  \
+  /* required: the whole state as bytes; called with null bytes to learn the size. restore makes   \
+   * a fresh estimator go on exactly where the saved one stood. */                                 \
   size_t (*save)(const void *self, void *bytes);                                                   \
   gamut_status (*restore)(void *self, const void *bytes, size_t size);
 

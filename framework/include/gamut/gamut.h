@@ -2,13 +2,14 @@
  *
  *   struct gamut_session *session = gamut_session_new(NULL);
  *   char *summary = NULL;
- *   if (gamut_run_scene(session, "inputs/taylor_bar.yaml", &(struct gamut_run_request){0}, &summary))
+ *   struct gamut_run_request request = {0};
+ *   if (gamut_run_scene(session, "inputs/taylor_bar.yaml", &request, &summary))
  *     fputs(gamut_messages(session), stderr);
  *   gamut_free(summary);
  *   gamut_session_free(session);
  *
- * Link with `pkg-config --cflags --libs gamut`. A session is for one thread at a time; several sessions
- * may live at once, but scenes are read and plugins opened by one thread at a time. */
+ * Link with `pkg-config --cflags --libs gamut`. A session is for one thread at a time; several
+ * sessions may live at once, but scenes are read and plugins opened by one thread at a time. */
 #ifndef GAMUT_GAMUT_H
 #define GAMUT_GAMUT_H
 
@@ -44,9 +45,9 @@ struct gamut_run_request {
   int force;              /* whether results in that folder may be replaced */
 };
 
-/* Runs a scene, or the study that it asks for. *summary becomes the text of summary.json, to be given to gamut_free; it is set also
- * where the numbers failed on the way (GAMUT_NUMERICS), null where nothing was run. Returns the status
- * whose number is the exit code of `gamut run`. */
+/* Runs a scene, or the study that it asks for. *summary becomes the text of summary.json, to be
+ * given to gamut_free; it is set also where the numbers failed on the way (GAMUT_NUMERICS), null
+ * where nothing was run. Returns the status whose number is the exit code of `gamut run`. */
 GAMUT_API gamut_status gamut_run_scene(struct gamut_session *, const char *scene,
                                        const struct gamut_run_request *, char **summary);
 /* Validates a scene, runs nothing. */

@@ -63,19 +63,21 @@ struct gamut_plugin {
  * eos
  *   pressure     required. Reads compression, energy, reference_density; writes pressure,
  *                sound_speed and whatever slopes the descriptor declares.
- *   derivatives  optional. Fills NAME_by_P and NAME_by_P_Q by GAMUT_PUT (first and second derivatives
- *                of the output named under `derivatives`). Default: Richardson differences by the core.
+ *   derivatives  optional. Fills NAME_by_P and NAME_by_P_Q by GAMUT_PUT (first and second
+ *                derivatives of the output named under `derivatives`). Default: Richardson
+ *                differences by the core.
  * strength
- *   flow_stress  required. Reads plastic_strain, plastic_strain_rate, temperature; writes flow_stress
- *                and the declared slopes.
- *   inverse      optional. The plastic strain at a given flow stress: reads the array flow_stress_given,
- *                writes plastic_strain_inverse (members added where the descriptor says `inverse: true`).
+ *   flow_stress  required. Reads plastic_strain, plastic_strain_rate, temperature; writes
+ *                flow_stress and the declared slopes.
+ *   inverse      optional. The plastic strain at a given flow stress: reads the array
+ *                flow_stress_given, writes plastic_strain_inverse (members added where the
+ *                descriptor says `inverse: true`).
  *   derivatives  as for eos.
  * elasticity
  *   stress       required. From the state at the beginning of a step (NAME_begin, constant), the
  *                velocity gradient and the laws bound into the block to the state at its end.
- *   start        optional. The stress that belongs to the initial energy and compression; writes the
- *                end state. Default: the end state equals the beginning.
+ *   start        optional. The stress that belongs to the initial energy and compression; writes
+ *                the end state. Default: the end state equals the beginning.
  * effect
  *   create       optional. Reads its values, asks the solver for planes. On failure returns a status
  *                after gamut_fail; *self then is not destroyed.
@@ -103,9 +105,9 @@ struct gamut_plugin {
   gamut_status (*measure)(void *self, const char *name, const struct gamut_body *body,             \
                           const struct gamut_values *arguments, double *value);
 
-/* Exports NAME_LTX_gamut_plugin. A build may put further shared objects beside NAME.so, made from the
- * same source for a richer instruction set (NAME.v3.so, NAME.v4.so); each exports the same symbol and
- * gamut opens the best one that the processor can run. */
+/* Exports NAME_LTX_gamut_plugin. A build may put further shared objects beside NAME.so, made from
+ * the same source for a richer instruction set (NAME.v3.so, NAME.v4.so); each exports the same
+ * symbol and gamut opens the best one that the processor can run. */
 #if defined(__GNUC__)
 #define GAMUT_EXPORT __attribute__((visibility("default")))
 #else

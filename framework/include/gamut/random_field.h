@@ -8,12 +8,13 @@
 #define GAMUT_RANDOM_FIELD_OPS(B)                                                                  \
   gamut_status (*create)(struct gamut_run *, const struct gamut_values *, void **self);            \
   void (*destroy)(void *self);                                                                     \
-  /* required. Writes one value a point. position has three arrays of `count` (metres), id one.     \
-   * The same point must get the same value whatever other points are asked for with it. */         \
+  /* required. Writes one value a point. position has three arrays of `count` (metres), id one.    \
+   * The same point must get the same value whatever other points are asked for with it. */        \
   gamut_status (*sample)(const void *self, const struct gamut_stream *, size_t count,              \
                          const double *const position[3], const int64_t *id, double *value);       \
-  /* optional: the probability that the field is below `value` at a point, where its values are not  \
-   * standard normal (where they are: NaN). By it a random parameter keeps its own distribution. */  \
+  /* optional: the probability that the field is below `value` at a point, where its values are    \
+   * not standard normal (where they are: NaN). By it a random parameter keeps its own                     \
+   * distribution. */                                                                              \
   double (*below)(const void *self, double value);
 
 #endif

@@ -1,8 +1,9 @@
 /* What a solver, effect, estimator or random field may ask of the core.
  *
- * Every function here is an inline call through the table `gamut_host` that the core hands over, so a
- * plugin has no symbol to resolve. All are called from one thread, before the first step or between
- * steps, unless a comment says otherwise. Objects belong to the run; a plugin frees none of them.
+ * Every function here is an inline call through the table `gamut_host` that the core hands over, so
+ * a plugin has no symbol to resolve. All are called from one thread, before the first step or
+ * between steps, unless a comment says otherwise. Objects belong to the run; a plugin frees none of
+ * them.
  */
 #ifndef GAMUT_RUN_H
 #define GAMUT_RUN_H
@@ -14,7 +15,8 @@
 #include <gamut/status.h>
 
 struct gamut_run;    /* one run of one scene */
-struct gamut_values; /* the checked values of one plugin's parameters, or of a measure's arguments */
+/* The checked values of one plugin's parameters, or of a measure's arguments. */
+struct gamut_values;
 struct gamut_body;   /* a body of the scene */
 
 /* ---- points ---------------------------------------------------------------------------------- */
@@ -25,9 +27,9 @@ enum {
 };
 
 /* The points of one body and material. Read-only for plugins; the core keeps it current. Points are
- * cut into blocks: block b holds slots first[b] to first[b+1]-1, a multiple of GAMUT_LANES. Slots at
- * the end of a block that hold no point are padding: copies of the block's last point with zero mass
- * and id -1. */
+ * cut into blocks: block b holds slots first[b] to first[b+1]-1, a multiple of GAMUT_LANES. Slots
+ * at the end of a block that hold no point are padding: copies of the block's last point with zero
+ * mass and id -1. */
 struct gamut_set {
   const char *body;    /* name of its body, borrowed from the scene */
   size_t index;        /* number of the set, in the order of the scene's bodies */
@@ -93,10 +95,10 @@ struct gamut_use {
 };
 
 enum gamut_extent {
-  GAMUT_PER_CHUNK,    /* called for every chunk of points, by any thread, in any order of blocks */
-  GAMUT_OPEN_BLOCK,   /* called once a block before its first chunk (chunk.count is 0) */
-  GAMUT_CLOSE_BLOCK,  /* called once a block after its last chunk (chunk.count is 0) */
-  GAMUT_ONCE          /* called once a step by one thread, with a null chunk; may use OpenMP itself */
+  GAMUT_PER_CHUNK,   /* called for every chunk of points, by any thread, in any order of blocks */
+  GAMUT_OPEN_BLOCK,  /* called once a block before its first chunk (chunk.count is 0) */
+  GAMUT_CLOSE_BLOCK, /* called once a block after its last chunk (chunk.count is 0) */
+  GAMUT_ONCE /* called once a step by one thread, with a null chunk; may use OpenMP itself */
 };
 
 /* One piece of work of a step. The struct and what it points to is copied.
@@ -108,15 +110,15 @@ struct gamut_task {
   const struct gamut_use *uses;
   size_t use_count;
   bool essential; /* true: always live. false: live if a live task reads what it writes */
-  bool material;  /* calls gamut update_material: the core adds what the material reads and writes */
+  bool material; /* calls gamut update_material: the core adds what the material reads and writes */
   gamut_status (*run)(void *self, const struct gamut_chunk *chunk);
   void *self; /* borrowed */
 };
 
 /* ---- planes: a service of solvers that effects ask for --------------------------------------- */
 
-/* What a plane does with one component of the velocity (component 0 is along the normal, 1 and 2 are
- * tangential). */
+/* What a plane does with one component of the velocity (component 0 is along the normal, 1 and 2
+ * are tangential). */
 enum gamut_plane_rule { GAMUT_PLANE_FREE, GAMUT_PLANE_MIRROR, GAMUT_PLANE_PRESCRIBED };
 
 struct gamut_plane {
@@ -145,10 +147,11 @@ struct gamut_reaction {
  * the bookkeeping, stored energy grown beyond what was supplied is an instability (exit 5). */
 enum gamut_ledger_role { GAMUT_STORED, GAMUT_SUPPLIED, GAMUT_LOST };
 
-/* ---- chance ----------------------------------------------------------------------------------- */
+/* Chance. */
 
-/* Counter-based stream of random numbers (Philox): the same (seed, realisation, name, index) gives the
- * same number on any machine and thread, in any order. Copy it freely; change realisation at will. */
+/* Counter-based stream of random numbers (Philox): the same (seed, realisation, name, index) gives
+ * the same number on any machine and thread, in any order. Copy it freely; change realisation at
+ * will. */
 struct gamut_stream {
   uint64_t seed, realisation;
   uint64_t name; /* hash of what it is for: a parameter's scene path */
@@ -156,9 +159,9 @@ struct gamut_stream {
   double (*uniform)(const struct gamut_stream *, uint64_t index); /* between 0 and 1, neither */
 };
 
-/* A strength or eos of a body's material with arrays of the solver's own: its parameters, inputs and
- * outputs by name, each `count` values (see the law's descriptor). For solvers that do not update
- * materials by an elasticity. */
+/* A strength or eos of a body's material with arrays of the solver's own: its parameters, inputs
+ * and outputs by name, each `count` values (see the law's descriptor). For solvers that do not
+ * update materials by an elasticity. */
 struct gamut_law;
 
 /* ---- the table ------------------------------------------------------------------------------- */
@@ -207,35 +210,38 @@ struct gamut_host {
   gamut_status (*field)(struct gamut_run *, const char *name, struct gamut_field *field);
   /* A field's stored array of a set, by component; null where this scene does not store it. */
   double *(*stored)(const struct gamut_set *, struct gamut_field, unsigned component);
-  /* Rearranges all stored fields: new slot s takes what was in slot source[s]; a source with its top
-   * bit set is padding (a copy with zero mass). `first` holds blocks + 1 slot numbers. Both copied. */
+  /* Rearranges all stored fields: new slot s takes what was in slot source[s]; a source with its
+   * top bit set is padding (a copy with zero mass). `first` holds blocks + 1 slot numbers. Both
+   * copied. */
   gamut_status (*arrange)(struct gamut_run *, struct gamut_set *, const uint32_t *source,
                           size_t slots, const size_t *first, size_t blocks);
   /* Fills the state of the set's points at t = 0: material parameters, temperature, energy, and the
    * stress that belongs to them. After the solver has set positions and masses. */
   gamut_status (*start_material)(struct gamut_run *, struct gamut_set *);
-  /* Updates the material of a chunk: state at the end from the state at the beginning and the fields
-   * written so far. Repeatable. Any thread. For solvers that iterate on it (their task says `material`).
-   * For a solver whose phases include "material" the core's own task in that phase does it. */
+  /* Updates the material of a chunk: state at the end from the state at the beginning and the
+   * fields written so far. Repeatable. Any thread. For solvers that iterate on it (their task says
+   * `material`). For a solver whose phases include "material" the core's own task in that phase
+   * does it. */
   gamut_status (*update_material)(struct gamut_run *, const struct gamut_chunk *);
   /* Registers a task. In create only. */
   gamut_status (*task)(struct gamut_run *, const struct gamut_task *);
   /* Sets a GAMUT_AT_RUN field (cell_size, or time_step by the core itself). */
   void (*set_uniform)(struct gamut_run *, struct gamut_field, double value);
 
-  /* Memory that counts: 64-byte aligned, zeroed, shown by `explain` under `label`; null and an error
-   * recorded when there is none. Never in a step, but where a grid must grow. */
+  /* Memory that counts: 64-byte aligned, zeroed, shown by `explain` under `label`; null and an
+   * error recorded when there is none. Never in a step, but where a grid must grow. */
   void *(*allocate)(struct gamut_run *, const char *label, size_t bytes);
   void (*release)(struct gamut_run *, void *memory);
 
-  /* Asks the run's solver for a plane. The reaction is owned by the solver, current after each step. */
+  /* Asks the run's solver for a plane. The reaction is owned by the solver, current after each
+   * step. */
   gamut_status (*plane)(struct gamut_run *, const struct gamut_plane *,
                         const struct gamut_reaction **reaction);
 
-  /* Opens a line of the ledger ("energy", "kinetic", "J"); *value is then kept current by the plugin,
-   * after every step. Stored lines are compared with their value after start. */
-  gamut_status (*ledger)(struct gamut_run *, const char *account, const char *name, const char *unit,
-                         enum gamut_ledger_role role, double **value);
+  /* Opens a line of the ledger ("energy", "kinetic", "J"); *value is then kept current by the
+   * plugin, after every step. Stored lines are compared with their value after start. */
+  gamut_status (*ledger)(struct gamut_run *, const char *account, const char *name,
+                         const char *unit, enum gamut_ledger_role role, double **value);
 
   double (*time)(const struct gamut_run *);      /* at the beginning of the step */
   double (*time_step)(const struct gamut_run *); /* of the step under way */
@@ -243,20 +249,20 @@ struct gamut_host {
   int (*threads)(const struct gamut_run *);
   size_t (*chunk)(const struct gamut_run *); /* points a chunk, a multiple of GAMUT_LANES */
 
-  /* Exact volume of the body's shape in a space of so many axes (per unit of those it lacks), or of the
-   * shape revolved about y. 0 where the body has no shape. */
+  /* Exact volume of the body's shape in a space of so many axes (per unit of those it lacks), or of
+   * the shape revolved about y. 0 where the body has no shape. */
   double (*body_volume)(const struct gamut_body *, unsigned dimension, bool revolved);
 
   /* A law of the body's material ("strength" or "eos") with arrays for `count` points. For solvers
    * whose descriptor lists `laws`. In create or start; owned by the run. */
   gamut_status (*law)(struct gamut_run *, const struct gamut_body *, const char *kind, size_t count,
                       struct gamut_law **law);
-  /* Array of a parameter, input or output by name ("flow_stress_given"); null where the law has none.
-   * Parameters hold the scene's values, and may be written point by point. */
+  /* Array of a parameter, input or output by name ("flow_stress_given"); null where the law has
+   * none. Parameters hold the scene's values, and may be written point by point. */
   double *(*law_array)(struct gamut_law *, const char *name);
-  /* Calls an operation ("flow_stress", "inverse", "pressure") on the first `count` points; false where
-   * the law does not offer it. *worst (may be null) is the worst status word of these points. Any
-   * thread, but one at a time for the same law. */
+  /* Calls an operation ("flow_stress", "inverse", "pressure") on the first `count` points; false
+   * where the law does not offer it. *worst (may be null) is the worst status word of these points.
+   * Any thread, but one at a time for the same law. */
   bool (*law_call)(struct gamut_law *, const char *operation, size_t count, int64_t *worst);
   /* The text of a status word of the law. */
   const char *(*law_message)(const struct gamut_law *, int64_t word);
@@ -277,8 +283,8 @@ struct gamut_host {
   void (*note)(struct gamut_run *, const char *format, ...);
   /* Says where the points of a law are: parameters with a random field get their values there. A
    * scene with such a field is refused if the solver has not said it by the end of its start. */
-  gamut_status (*law_places)(struct gamut_run *, struct gamut_law *, const double *const position[3],
-                             const int64_t *id);
+  gamut_status (*law_places)(struct gamut_run *, struct gamut_law *,
+                             const double *const position[3], const int64_t *id);
 };
 
 /* Every run begins with its host; the rest is the core's. */

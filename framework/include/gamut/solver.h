@@ -1,34 +1,36 @@
 /* Solvers: they march bodies in time or load.
  *
- * The core drives. It calls create (the solver lays out points and registers fields and tasks), plans
- * the run (which tasks are live, in which order, which fields are stored), allocates, calls start, then
- * for each step: next (how long may it be), every live task in order, after (sums, ledger). */
+ * The core drives. It calls create (the solver lays out points and registers fields and tasks),
+ * plans the run (which tasks are live, in which order, which fields are stored), allocates, calls
+ * start, then for each step: next (how long may it be), every live task in order, after (sums,
+ * ledger). */
 #ifndef GAMUT_SOLVER_H
 #define GAMUT_SOLVER_H
 
 #include <gamut/run.h>
 
 #define GAMUT_SOLVER_OPS(B)                                                                        \
-  /* required. Reads its values and the bodies, makes sets, registers fields, tasks, ledger lines.  \
-   * On failure returns a status after gamut_fail and leaves nothing behind. */                     \
+  /* required. Reads its values and the bodies, makes sets, registers fields, tasks, ledger lines. \
+   * On failure returns a status after gamut_fail and leaves nothing behind. */                    \
   gamut_status (*create)(struct gamut_run *, const struct gamut_values *, void **self);            \
-  /* required. Accepts null. */                                                                     \
+  /* required. Accepts null. */                                                                    \
   void (*destroy)(void *self);                                                                     \
-  /* required. Fields exist: set positions, masses, velocities; arrange; gamut start_material. */   \
+  /* required. Fields exist: set positions, masses, velocities; arrange; gamut start_material. */  \
   gamut_status (*start)(void *self);                                                               \
-  /* required. The step to take from here: in, `*step` is the longest that the end of the run       \
-   * allows; out, the one to take (smaller or equal); 0 ends the run here. */                                  \
+  /* required. The step to take from here: in, `*step` is the longest that the end of the run      \
+   * allows; out, the one to take (smaller or equal); 0 ends the run here. */                      \
   gamut_status (*next)(void *self, double *step);                                                  \
-  /* optional. After the last task of a step: check what can go wrong, keep the ledger. */          \
+  /* optional. After the last task of a step: check what can go wrong, keep the ledger. */         \
   gamut_status (*after)(void *self);                                                               \
-  /* optional: required by effects that ask for planes. Called while effects are created. */        \
+  /* optional: required by effects that ask for planes. Called while effects are created. */       \
   gamut_status (*plane)(void *self, const struct gamut_plane *,                                    \
                         const struct gamut_reaction **reaction);                                   \
-  /* optional, required if the descriptor declares measures without a formula. `body` is null for    \
-   * measures `at: run`; `arguments` are those the descriptor declares. Called between steps. */      \
+  /* optional, required if the descriptor declares measures without a formula. `body` is null for  \
+   * measures `at: run`; `arguments` are those the descriptor declares. Called between steps. */   \
   gamut_status (*measure)(void *self, const char *name, const struct gamut_body *body,             \
                           const struct gamut_values *arguments, double *value);                    \
-  /* optional. Writes the longest step the present state allows and what limits it, for explain. */ \
+  /* optional. Writes the longest step the present state allows and what limits it, for explain.   \
+   */                                                                                              \
   gamut_status (*describe)(void *self, double *step, char *text, size_t size);
 
 #endif
