@@ -43,6 +43,10 @@ def check(name):
              if not os.path.exists(result.file(f))]
     scenes.report(not files and summary["status"] == "done", f"{name} runs to its end", files)
     quantities = summary["quantities"]
+    for key, q in quantities.items():
+        if "reason" in q:
+            scenes.note(f"{name}: {key} has no value: {q['reason']}")
+    quantities = {key: q for key, q in quantities.items() if "reason" not in q}
     bad = [key for key, q in quantities.items() if not numbers(q)
            or not all(isinstance(v, (int, float)) and math.isfinite(v) for v in numbers(q))]
     scenes.report(not bad, f"{name}: {len(quantities)} quantities, all finite", bad)
