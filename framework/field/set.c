@@ -93,7 +93,7 @@ static gamut_status take_all(struct point_set *set, struct trace *trace)
   return good ? GAMUT_OK
               : trace_fail_at(trace, GAMUT_SCENE, NULL, NULL,
                               "fewer points: a larger cell, or fewer in a cell",
-                              "this machine has not the memory for %zu points of body '%s'",
+                              "this machine lacks the memory for %zu points of body '%s'",
                               set->open.points, set->open.body);
 }
 

@@ -79,8 +79,8 @@ struct gamut_plugin {
  *   start        optional. The stress that belongs to the initial energy and compression; writes
  *                the end state. Default: the end state equals the beginning.
  * effect
- *   create       optional. Reads its values, asks the solver for planes. On failure returns a status
- *                after gamut_fail; *self then is not destroyed.
+ *   create       optional. Reads its values, asks the solver for planes. On failure returns a
+ *                status after gamut_fail; *self then is not destroyed.
  *   destroy      optional. Accepts null.
  *   decline      optional. Returns true and writes the reason where the effect has nothing to do in
  *                this scene ("C = 0"); it then costs nothing.

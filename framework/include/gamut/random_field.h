@@ -13,7 +13,7 @@
   gamut_status (*sample)(const void *self, const struct gamut_stream *, size_t count,              \
                          const double *const position[3], const int64_t *id, double *value);       \
   /* optional: the probability that the field is below `value` at a point, where its values are    \
-   * not standard normal (where they are: NaN). By it a random parameter keeps its own                     \
+   * not standard normal (where they are: NaN). By it a random parameter keeps its own             \
    * distribution. */                                                                              \
   double (*below)(const void *self, double value);
 
