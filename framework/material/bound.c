@@ -248,11 +248,11 @@ const struct gamut_use *material_uses(const struct bound_material *bound, size_t
   return bound->use;
 }
 
-static void fill_argument(const struct law *law, const char *name, const double *from, size_t count)
+static void fill_argument(double *row, size_t component, const struct gamut_chunk *chunk)
 {
-  double *row = law ? law_row(law, name) : NULL;
-  if (row && from)
-    memcpy(row, from, count * sizeof *row);
+  const double *from = component != SIZE_MAX ? chunk->begin[component] : NULL;
+  if (from)
+    memcpy(row, from, chunk->count * sizeof *row);
 }
 
 static void follow(struct bound_material *bound, struct seat *seat,
@@ -268,12 +268,11 @@ static void follow(struct bound_material *bound, struct seat *seat,
                  seat->zero, seat->sink);
     law_begin(seat->law[role], chunk->count);
   }
-  if (bound->temperature != SIZE_MAX)
-    fill_argument(seat->law[STRENGTH], "temperature", chunk->begin[bound->temperature],
-                  chunk->count);
-  if (bound->plastic_strain != SIZE_MAX)
-    fill_argument(seat->law[STRENGTH], "plastic_strain", chunk->begin[bound->plastic_strain],
-                  chunk->count);
+  if (!seat->law[STRENGTH])
+    return;
+  const struct gamut_strength_law *strength = &seat->law[STRENGTH]->strength;
+  fill_argument(strength->temperature, bound->temperature, chunk);
+  fill_argument(strength->plastic_strain, bound->plastic_strain, chunk);
 }
 
 void material_update(struct bound_material *bound, const struct gamut_chunk *chunk)

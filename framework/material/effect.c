@@ -10,6 +10,7 @@ struct effect_task {
   struct gamut_use *use;
   size_t uses;
   struct links *links; /* one a material; `begin` is settled by effect_resolve */
+  kernel_function call;
 };
 
 struct effect_seat {
@@ -101,6 +102,7 @@ static gamut_status make_tasks(struct bound_effect *bound, struct fields *fields
   for (size_t t = 0; t < d->tasks; t++) {
     struct effect_task *task = &bound->task[t];
     task->links = calloc(bound->materials, sizeof *task->links);
+    task->call = kernel_named(bound->kernel[0], d->task[t].kernel);
     if (!task->links || collect_uses(d, &d->task[t], task) != GAMUT_OK ||
         add_paths(bound, task) != GAMUT_OK)
       return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
@@ -223,13 +225,11 @@ void effect_call(struct bound_effect *bound, size_t task, size_t material,
                  const struct gamut_chunk *chunk)
 {
   struct effect_seat *seat = &bound->seat[chunk->thread];
-  const struct kernel *kernel = bound->kernel[material];
   struct image *image = seat->image[material];
   const struct links *links = &bound->task[task].links[material];
-  kernel_function call = kernel_named(kernel, kernel->descriptor->task[task].kernel);
   image_follow(image, links->link, links->count, chunk, seat->zero, seat->sink);
   memset(image->status, 0, chunk->count * sizeof *image->status);
-  call(image);
+  bound->task[task].call(image);
   tally_block(&seat->tally, image->status, chunk);
 }
 

@@ -5,6 +5,7 @@
 void tally_block(struct tally *tally, const int64_t *status, const struct gamut_chunk *chunk)
 {
   int64_t any = 0;
+#pragma omp simd reduction(| : any)
   for (size_t i = 0; i < chunk->count; i++)
     any |= status[i];
   if (!any)

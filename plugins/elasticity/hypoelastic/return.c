@@ -61,17 +61,22 @@ static void newton(const struct hypoelastic *b)
     double f = b->scratch[TRIAL_SIZE][i] - stiffness * d - flow, step = f / slope;
     double lower = choose(f > 0.0 ? 1.0 : 0.0, d, b->scratch[LOWER][i]);
     double upper = choose(f < 0.0 ? 1.0 : 0.0, d, b->scratch[UPPER][i]);
-    double low_side = d + step < lower ? 1.0 : 0.0, high_side = d + step > upper ? 1.0 : 0.0;
-    double outside = slope > 0.0 ? low_side + high_side : 1.0;
-    /* Newton's step squares the relative error, so 1e-9 before it is enough after it. A bracket
-     * of a few ulps is all that round-off allows. */
-    double close = fabs(f) <= 1e-9 * excess ? 1.0 : 0.0;
+    /* Onto the far end of the bracket counts as outside: around a kink of the law steps could
+     * otherwise go to and fro between both ends. */
+    double low_side = d + step <= lower ? 1.0 : 0.0, high_side = d + step >= upper ? 1.0 : 0.0;
+    double far_side = choose(f < 0.0 ? 1.0 : 0.0, low_side, f > 0.0 ? high_side : 0.0);
+    double outside = slope > 0.0 ? far_side : 1.0;
+    /* Newton's step squares the relative error, so 1e-6 before it leaves 1e-12 or so. A residual
+     * of a few ulps of the stress, or a bracket of as many, is all that round-off allows: there
+     * steps may lead anywhere. */
+    double close = fabs(f) <= 1e-6 * excess ? 1.0 : 0.0;
     close = outside > 0.0 ? 0.0 : close;
     double narrow = upper - lower <= 4e-16 * upper ? 1.0 : 0.0;
+    double exact = fabs(f) <= 1e-15 * b->scratch[TRIAL_SIZE][i] ? 1.0 : 0.0;
     /* A step that leaves the bracket is not taken, nor one of a point that is done or elastic. */
     step = outside > 0.0 ? 0.0 : step;
     step = active > 0.0 ? step : 0.0;
-    double still = active * (close + narrow > 0.0 ? 0.0 : 1.0);
+    double still = active * (close + narrow + exact > 0.0 ? 0.0 : 1.0);
     outside = still > 0.0 ? outside : 0.0;
     b->scratch[FLOW][i] = choose(active, flow + hardening * step, b->scratch[FLOW][i]);
     b->scratch[LOWER][i] = lower;
@@ -114,21 +119,22 @@ static void rescue(const struct hypoelastic *b, double bisect)
 static bool any(const struct hypoelastic *b, enum scratch which)
 {
   const double *mark = b->scratch[which];
-  double sum = 0.0;
+  double most = 0.0;
+#pragma omp simd reduction(max : most)
   for (size_t i = 0; i < b->count; i++)
-    sum += mark[i];
-  return sum > 0.0;
+    most = mark[i] > most ? mark[i] : most;
+  return most > 0.0;
 }
 
 static void iterate(const struct hypoelastic *b)
 {
   uint32_t lane[GAMUT_CHUNK_MAX];
   for (int k = 0; k < ITERATIONS; k++) {
+    if (!any(b, ACTIVE))
+      return;
     size_t lanes = b->count;
     if (b->count <= GAMUT_CHUNK_MAX)
       lanes = hypoelastic_lanes(b->scratch[ACTIVE], b->count, lane);
-    if (lanes == 0 || !any(b, ACTIVE))
-      return;
     propose(b, b->scratch[INCREMENT]);
     /* A list pays where few points are left. */
     bool few = 2 * lanes < b->count;

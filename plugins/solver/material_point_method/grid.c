@@ -93,12 +93,13 @@ gamut_status places_clear(struct gamut_run *run, struct place_table **table, siz
 gamut_status grid_create(struct grid *g, struct gamut_run *run, unsigned dimension, unsigned order,
                          double cell)
 {
-  static const int side[] = {0, 64, 8, 4};
+  static const int bits[] = {0, 6, 3, 2};
   memset(g, 0, sizeof *g);
   g->run = run;
   g->dimension = dimension;
   g->order = order;
-  g->side = side[dimension];
+  g->side_bits = bits[dimension];
+  g->side = 1 << g->side_bits;
   g->tile = g->side + 2 + (int)order;
   g->neighbours = 1;
   g->block_nodes = g->tile_nodes = 1;

@@ -51,6 +51,7 @@ struct grid {
   struct gamut_run *run;
   unsigned dimension, order; /* order of the shape functions: 1 or 2 */
   int side, tile;            /* cells a block, nodes a tile, along each axis */
+  int side_bits;             /* side = 1 << side_bits */
   size_t block_nodes, tile_nodes;
   unsigned neighbours; /* 3^d */
   double cell, inverse_cell;
@@ -82,8 +83,7 @@ enum { GRID_REACH = 1000000 };
 /* The block that holds the cell, and the cell's number in it (x fastest). */
 static inline int32_t grid_block_of(const struct grid *g, int32_t cell)
 {
-  int32_t q = cell / g->side;
-  return q * g->side > cell ? q - 1 : q;
+  return cell >> g->side_bits;
 }
 
 /* A new grid of blocks begins: grid_begin, then grid_block for each place of a block of points,

@@ -44,6 +44,18 @@ static double growth(const struct model *m, double ratio)
   return m->dimension == 1 ? ratio : m->dimension == 2 ? sqrt(ratio) : cbrt(ratio);
 }
 
+/* Whether some of GAMUT_LANES points may reach beyond low and high; without taking a root. */
+static bool may_reach(const double *x, const double *ratio, double start, double low, double high)
+{
+  int beyond = 0;
+#pragma omp simd reduction(| : beyond)
+  for (size_t l = 0; l < GAMUT_LANES; l++) {
+    const double most = start * (ratio[l] > 1.0 ? ratio[l] : 1.0);
+    beyond |= !(x[l] - most >= low) | !(x[l] + most <= high);
+  }
+  return beyond != 0;
+}
+
 /* From the lowest to the highest edge along an axis, of the points with lower <= x[along] <= upper.
  */
 static bool span(const struct model *m, const struct cloud *c, int axis, int along, double lower,
@@ -52,12 +64,17 @@ static bool span(const struct model *m, const struct cloud *c, int axis, int alo
   bool any = false;
   const double start = 0.5 * c->body->spacing[axis];
   for (size_t i = 0; i < c->set->slots; i++) {
+    while (any && i % GAMUT_LANES == 0 && i < c->set->slots &&
+           !may_reach(c->x[axis] + i, c->ratio + i, start, *low, *high))
+      i += GAMUT_LANES;
+    if (i == c->set->slots)
+      break;
     if (c->set->id[i] < 0 || (along >= 0 && !(c->x[along][i] >= lower && c->x[along][i] <= upper)))
       continue;
     const double ratio = c->ratio[i], most = start * (ratio > 1.0 ? ratio : 1.0);
     const double x = c->x[axis][i];
     if (any && x - most >= *low && x + most <= *high)
-      continue; /* inside, without taking a root */
+      continue;
     const double half = start * growth(m, ratio);
     *low = any && *low < x - half ? *low : x - half;
     *high = any && *high > x + half ? *high : x + half;

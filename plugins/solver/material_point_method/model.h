@@ -81,7 +81,7 @@ struct model {
   struct grid grid;
   bool origin_fixed[3];
   struct planes planes;
-  const struct transfer *transfer;
+  struct transfer transfer;
   struct work **work; /* one a thread */
   int threads;
 

@@ -149,6 +149,7 @@ static gamut_status make_work(struct model *m)
     m->work[t] = w;
     if (w == NULL)
       return GAMUT_INTERNAL;
+    w->pending_node = -1;
     w->tile = gamut_allocate(m->run, label, tile);
     w->sums = gamut_allocate(m->run, label, tile);
     w->point_sum = gamut_allocate(m->run, label, POINT_SUMS * GAMUT_LANES * sizeof(double));

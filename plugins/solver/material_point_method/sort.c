@@ -56,7 +56,7 @@ static gamut_status locate_set(struct model *m, const struct gamut_set *set, siz
       m->scratch_block[i] = -1;
       continue;
     }
-    int32_t at[3] = {0, 0, 0}, cell = 0, stride = 1;
+    int32_t at[3] = {0, 0, 0}, cell = 0;
     for (unsigned k = 0; k < m->dimension; k++) {
       const double place = (x[k][i] - g->origin[k]) * g->inverse_cell - g->shift;
       if (!(fabs(place) < GRID_REACH)) {
@@ -65,8 +65,7 @@ static gamut_status locate_set(struct model *m, const struct gamut_set *set, siz
       }
       const int32_t global = (int32_t)floor(place);
       at[k] = grid_block_of(g, global);
-      cell += stride * (global - at[k] * g->side);
-      stride *= g->side;
+      cell += (global - at[k] * g->side) << (k * (unsigned)g->side_bits);
     }
     if (number < 0 || memcmp(at, last, sizeof at) != 0) {
       if (grid_block(g, at, &number) != GAMUT_OK || room_for_blocks(m, g->blocks) != GAMUT_OK)
@@ -179,8 +178,11 @@ static gamut_status sort_sets(struct model *m, int32_t **list)
     struct gamut_set *set = m->body[i].set;
     const size_t slots = set->blocks > 0 ? set->slots : set->points;
     /* padding of every block of this set must fit, whatever their number becomes */
+    const size_t room = m->scratch_capacity;
     status = room_for_points(m, slots + GAMUT_LANES * m->grid.blocks);
-    if (status == GAMUT_OK)
+    /* of a single set find_blocks has left the places */
+    const bool known = m->bodies == 1 && room == m->scratch_capacity;
+    if (status == GAMUT_OK && !known)
       status = locate_set(m, set, slots);
     if (status == GAMUT_OK)
       status = sort_set(m, set, *list + sources, first);

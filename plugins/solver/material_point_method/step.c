@@ -31,6 +31,8 @@ static gamut_status load_block(void *self, const struct gamut_chunk *chunk)
 static void leave_box(struct model *m, struct work *w, size_t serial)
 {
   struct source *s = &m->grid.source[serial];
+  if (m->transfer.finish != NULL)
+    m->transfer.finish(w);
   for (unsigned k = 0; k < m->dimension; k++) {
     s->lower[k] = w->lower[k];
     s->upper[k] = w->upper[k];
@@ -164,13 +166,13 @@ static gamut_status renew_momentum(void *self, const struct gamut_chunk *chunk)
   components(chunk, m->field.velocity, 3, true, view.velocity);
   components(chunk, m->field.mass, 1, false, &view.mass);
   const struct locate l = locate_in(m, chunk->serial, view.position, chunk->count);
-  if (!m->transfer->locate(w, &l, true))
+  if (!m->transfer.locate(w, &l, true))
     return find_stray(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
-  m->transfer->gather(w, chunk->count);
+  m->transfer.gather(w, chunk->count, m->pic != 0.0);
   for (unsigned k = 0; k < m->dimension; k++)
     advance_velocity(m, w, k, chunk->count, gamut_begin(chunk, m->field.velocity, k),
                      gamut_end(chunk, m->field.velocity, k));
-  m->transfer->scatter_momentum(w, &view);
+  m->transfer.scatter_momentum(w, &view);
   return GAMUT_OK;
 }
 
@@ -203,9 +205,9 @@ static gamut_status gather_points(void *self, const struct gamut_chunk *chunk)
   for (unsigned k = 0; k < 9; k++)
     gradient[k] = gamut_end(chunk, m->field.velocity_gradient, k);
   const struct locate l = locate_in(m, chunk->serial, x, count);
-  if (!m->transfer->locate(w, &l, false))
+  if (!m->transfer.locate(w, &l, false))
     return find_stray(m, chunk->set, chunk->slot, &l, x, v);
-  m->transfer->gather_gradient(w, count, m->grid.inverse_cell, gradient);
+  m->transfer.gather_gradient(w, count, m->grid.inverse_cell, gradient);
   finish_gradient(m, w, x[0], count, gradient);
   for (unsigned k = 0; k < m->dimension; k++) {
     const double *carry = w->value[m->second_pass ? 3 + k : k], *from = x[k];
@@ -245,9 +247,9 @@ static gamut_status scatter_view(struct model *m, struct work *w, const struct g
   view->density = m->body[set->index].density;
   view->axisymmetric = m->geometry == GEOMETRY_AXISYMMETRIC;
   const struct locate l = locate_in(m, serial, view->position, view->count);
-  if (!m->transfer->locate(w, &l, true))
+  if (!m->transfer.locate(w, &l, true))
     return find_stray(m, set, slot, &l, view->position, view->velocity);
-  m->transfer->scatter(w, view, m->grid.inverse_cell);
+  m->transfer.scatter(w, view, m->grid.inverse_cell);
   sums_motion(w, view, energy);
   if (view->force[0] != NULL)
     sums_forces(w, view);

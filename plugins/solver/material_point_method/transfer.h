@@ -11,6 +11,11 @@
 
 enum { STRIDE = GAMUT_CHUNK_MAX + 24 }; /* no multiple of a page: arrays must not alias in cache */
 
+enum {
+  PREPARED = 12, /* momentum, external force, minus volume times stress over the cell */
+  PENDING = 16
+};
+
 /* What one thread works on a block with. */
 struct work {
   double place[3][STRIDE]; /* 0 to 1 from the lowest node that the point touches */
@@ -18,6 +23,9 @@ struct work {
   double value[6][STRIDE]; /* gathered: velocity and its change */
   double *tile;            /* nodes' lines, from the grid */
   double *sums;            /* nodes' lines, to the grid; clear between blocks */
+  double prepared[PREPARED][STRIDE];
+  double pending[PENDING][8]; /* sums of the cell that was scattered last, by node */
+  int32_t pending_node;       /* -1: none */
   double *point_sum;       /* lanes of POINT_SUMS */
   double omega_squared;
   int lower[3], upper[3]; /* nodes that were added to; empty between blocks */
@@ -44,16 +52,21 @@ struct transfer {
   /* Fills place and node; widens lower and upper where `grow`. False if some point lies outside the
    * tile (or nowhere at all); then node is not to be used. */
   bool (*locate)(struct work *, const struct locate *, bool grow);
-  /* Values of a line at the points: components 3 to 5; and with gradient 0 to 2 as well. */
-  void (*gather)(struct work *, size_t count);
+  /* Values of a line at the points: components 3 to 5, and where `velocity` 0 to 2; with gradient
+   * all. */
+  void (*gather)(struct work *, size_t count, bool velocity);
   void (*gather_gradient)(struct work *, size_t count, double inverse_cell,
                           double *const gradient[9]);
-  /* Mass, momentum and forces into `sums`; or mass and momentum alone. */
+  /* Mass, momentum and forces into `sums`; or mass and momentum alone. What is still to come after
+   * the last chunk of a block `finish` adds; it may be null. */
   void (*scatter)(struct work *, const struct point_view *, double inverse_cell);
   void (*scatter_momentum)(struct work *, const struct point_view *);
+  void (*finish)(struct work *);
 };
 
 /* dimension 1 to 3, order 1 or 2 */
-const struct transfer *transfer_of(unsigned dimension, unsigned order);
+struct transfer transfer_of(unsigned dimension, unsigned order);
+/* by_cell.c: puts faster functions for three dimensions in their places. */
+void transfer_by_cell(struct transfer *, unsigned order);
 
 #endif

@@ -105,8 +105,9 @@ INLINE void NAMED(interpolate)(const double *tile, double weight[DIMENSION][NODE
   }
 }
 
-static void NAMED(gather)(struct work *w, size_t count)
+static void NAMED(gather)(struct work *w, size_t count, bool velocity)
 {
+  (void)velocity;
   for (size_t i = 0; i < count; i += GAMUT_LANES) {
     double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));

@@ -1,0 +1,72 @@
+/* A node's line as vectors of the width that the target has in registers: wider ones are taken
+ * apart badly by the compiler. */
+#ifndef MATERIAL_POINT_METHOD_LINE_H
+#define MATERIAL_POINT_METHOD_LINE_H
+
+#include "grid.h"
+
+#if defined(__AVX512F__)
+#define WIDTH 8
+#elif defined(__AVX__)
+#define WIDTH 4
+#else
+#define WIDTH 2
+#endif
+typedef double vector __attribute__((vector_size(8 * WIDTH)));
+/* Vectors of doubles alias arrays of doubles in GNU C only through may_alias; `loose` ones may lie
+ * anywhere. */
+typedef vector aliased __attribute__((may_alias));
+typedef vector loose __attribute__((may_alias, aligned(8)));
+
+enum { PARTS = LINE / WIDTH };
+
+struct line {
+  vector part[PARTS];
+};
+
+#define INLINE static inline __attribute__((always_inline))
+
+INLINE vector vector_read(const double *p)
+{
+  return *(const loose *)(const void *)p;
+}
+INLINE void vector_write(double *p, vector a)
+{
+  *(loose *)(void *)p = a;
+}
+
+INLINE void line_clear(struct line *a)
+{
+  for (int k = 0; k < PARTS; k++)
+    a->part[k] = (vector){0};
+}
+INLINE void line_read(struct line *a, const double *p)
+{
+  for (int k = 0; k < PARTS; k++)
+    a->part[k] = ((const aliased *)(const void *)p)[k];
+}
+INLINE void line_write(const struct line *a, double *p)
+{
+  for (int k = 0; k < PARTS; k++)
+    ((aliased *)(void *)p)[k] = a->part[k];
+}
+/* a -= b */
+INLINE void line_subtract(struct line *a, const struct line *b)
+{
+  for (int k = 0; k < PARTS; k++)
+    a->part[k] -= b->part[k];
+}
+/* a += s b */
+INLINE void line_add(struct line *a, double s, const struct line *b)
+{
+  for (int k = 0; k < PARTS; k++)
+    a->part[k] += s * b->part[k];
+}
+/* a = s b */
+INLINE void line_scale(struct line *a, double s, const struct line *b)
+{
+  for (int k = 0; k < PARTS; k++)
+    a->part[k] = s * b->part[k];
+}
+
+#endif
