@@ -5,21 +5,15 @@
 #include "study/study.h"
 
 /* The levels of a study are scenes of their own. */
-static gamut_status check_study(struct command *command, const char *file,
-                                const struct option_texts *set, struct scene *scene)
+static gamut_status check_study(struct command *command, struct scene *scene)
 {
-  gamut_status status = GAMUT_OK;
-  struct override_list list = {0};
   struct study *study = NULL;
   const struct study_options options = {0};
   if (!study_wanted(scene))
     return GAMUT_OK;
-  TRY(overrides_read(command, set, &list));
-  TRY(study_new(file, list.override, list.count, scene, command->registry, command->units, &options,
-                command->trace, &study));
-done:
+  gamut_status status =
+      study_new(scene, command->registry, command->units, &options, command->trace, &study);
   study_free(study);
-  overrides_free(&list);
   return status;
 }
 
@@ -32,7 +26,7 @@ gamut_status command_check(struct command *command)
   const struct option option[] = {{"--set", 0, OPTION_TEXTS, &set}};
   TRY(options_read(command, option, 1, &file, 1, 1, NULL));
   TRY(scene_from_arguments(command, file, &set, &scene));
-  TRY(check_study(command, file, &set, scene));
+  TRY(check_study(command, scene));
   printf("%s: fine (solver %s, %zu material%s, %zu bod%s, %zu effect%s, %zu quantit%s)\n", file,
          scene->solver.descriptor ? scene->solver.descriptor->name : "none: a card",
          scene->materials, scene->materials == 1 ? "" : "s", scene->bodies,

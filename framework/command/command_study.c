@@ -26,7 +26,6 @@ gamut_status run_study(struct command *command, const struct run_arguments *argu
                        struct scene *scene)
 {
   gamut_status status = GAMUT_OK, ran;
-  struct override_list list = {0};
   struct study *study = NULL;
   struct runs_progress *progress = runs_progress_new(stderr);
   const struct study_options options = {.threads = arguments->threads,
@@ -36,9 +35,7 @@ gamut_status run_study(struct command *command, const struct run_arguments *argu
                                         .stop = arguments->stop,
                                         .progress = runs_progress_tell,
                                         .progress_self = progress};
-  TRY(overrides_read(command, &arguments->set, &list));
-  TRY(study_new(arguments->file, list.override, list.count, scene, command->registry,
-                command->units, &options, command->trace, &study));
+  TRY(study_new(scene, command->registry, command->units, &options, command->trace, &study));
   trace_print(command->trace, stderr);
   ran = study_run(study, arguments->folder, command->trace);
   runs_progress_free(progress);
@@ -52,6 +49,5 @@ gamut_status run_study(struct command *command, const struct run_arguments *argu
 done:
   runs_progress_free(progress);
   study_free(study);
-  overrides_free(&list);
   return status;
 }

@@ -3,8 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-gamut_status overrides_read(struct command *command, const struct option_texts *texts,
-                            struct override_list *list)
+struct override_list {
+  struct scene_override *override;
+  size_t count;
+  char **path; /* owned; the values are borrowed from argv */
+};
+
+static gamut_status overrides_read(struct command *command, const struct option_texts *texts,
+                                   struct override_list *list)
 {
   *list = (struct override_list){.override = calloc(texts->count + 1, sizeof *list->override),
                                  .path = calloc(texts->count + 1, sizeof *list->path)};
@@ -24,13 +30,12 @@ gamut_status overrides_read(struct command *command, const struct option_texts *
   return GAMUT_OK;
 }
 
-void overrides_free(struct override_list *list)
+static void overrides_free(struct override_list *list)
 {
   for (size_t i = 0; list->path && i < list->count; i++)
     free(list->path[i]);
   free(list->path);
   free(list->override);
-  *list = (struct override_list){0};
 }
 
 gamut_status scene_from_arguments(struct command *command, const char *file,
@@ -39,8 +44,8 @@ gamut_status scene_from_arguments(struct command *command, const char *file,
   gamut_status status = GAMUT_OK;
   struct override_list list;
   TRY(overrides_read(command, texts, &list));
-  TRY(scene_read(file, list.override, list.count, command->registry, command->units,
-                 command->trace, scene));
+  TRY(scene_read(file, list.override, list.count, command->registry, command->units, command->trace,
+                 scene));
 done:
   overrides_free(&list);
   return status;

@@ -129,8 +129,7 @@ static gamut_status read_scene(struct gamut_session *session, const char *file,
   TRY(scene_read(file, list.override, list.count, session->registry, session->units,
                  session->trace, scene));
   if (study_wanted(*scene))
-    TRY(study_new(file, list.override, list.count, *scene, session->registry, session->units,
-                  &options, session->trace, study));
+    TRY(study_new(*scene, session->registry, session->units, &options, session->trace, study));
 done:
   overrides_free(&list);
   return status;

@@ -300,6 +300,16 @@ static void override_put(struct reading *reading, struct tree *root,
   }
 }
 
+/* Models first: choosing one drops the parameters of another, not those that are set with it. */
+void overrides_put(struct reading *reading, struct tree *root,
+                   const struct scene_override *override, size_t overrides)
+{
+  for (int pass = 0; pass < 2; pass++)
+    for (size_t i = 0; i < overrides; i++)
+      if (sets_model(&override[i]) == (pass == 0))
+        override_put(reading, root, &override[i]);
+}
+
 struct tree *include_read(struct reading *reading, const char *file,
                           const struct scene_override *override, size_t overrides)
 {
@@ -309,10 +319,6 @@ struct tree *include_read(struct reading *reading, const char *file,
     tree_free(root);
     return NULL;
   }
-  /* Models first: choosing one drops the parameters of another, not those that are set with it. */
-  for (int pass = 0; pass < 2; pass++)
-    for (size_t i = 0; i < overrides; i++)
-      if (sets_model(&override[i]) == (pass == 0))
-        override_put(reading, root, &override[i]);
+  overrides_put(reading, root, override, overrides);
   return root;
 }

@@ -52,17 +52,24 @@ static void sections_read(struct reading *reading, struct scene *scene)
   scene->random = reading->random;
 }
 
-gamut_status scene_read(const char *file, const struct scene_override *override, size_t overrides,
-                        struct registry *registry, const struct units *units, struct trace *trace,
-                        struct scene **scene)
+/* The file, or the tree of `base` where it is given, with the overrides. */
+static gamut_status make(const char *file, const struct scene *base,
+                         const struct scene_override *override, size_t overrides,
+                         struct reading reading, struct scene **scene)
 {
   struct scene_store *store = scene_take(1, sizeof *store);
-  struct reading reading = {
-      .units = units, .trace = trace, .registry = registry, .scene = &store->shown};
+  reading.scene = &store->shown;
   *scene = NULL;
   char *name = scene_keep(&reading, strlen(file) + 1, 1);
   store->shown.file = strcpy(name, file);
-  store->shown.tree = include_read(&reading, file, override, overrides);
+  if (!base) {
+    store->shown.tree = include_read(&reading, file, override, overrides);
+  } else if ((store->shown.tree = tree_copy(base->tree))) {
+    overrides_put(&reading, store->shown.tree, override, overrides);
+  } else {
+    reading.faults++;
+    reading.first = trace_fail(reading.trace, GAMUT_INTERNAL, "out of memory");
+  }
   if (store->shown.tree && reading.faults == 0) /* without an include much would seem missing */
     sections_read(&reading, &store->shown);
   if (reading.faults == 0)
@@ -70,6 +77,22 @@ gamut_status scene_read(const char *file, const struct scene_override *override,
   else
     scene_free(&store->shown);
   return reading.first;
+}
+
+gamut_status scene_read(const char *file, const struct scene_override *override, size_t overrides,
+                        struct registry *registry, const struct units *units, struct trace *trace,
+                        struct scene **scene)
+{
+  const struct reading reading = {.units = units, .trace = trace, .registry = registry};
+  return make(file, NULL, override, overrides, reading, scene);
+}
+
+gamut_status scene_vary(const struct scene *base, const struct scene_override *override,
+                        size_t overrides, struct registry *registry, const struct units *units,
+                        struct trace *trace, struct scene **scene)
+{
+  const struct reading reading = {.units = units, .trace = trace, .registry = registry};
+  return make(base->file, base, override, overrides, reading, scene);
 }
 
 static void clear_material(struct material *material)

@@ -139,6 +139,8 @@ void values_check(struct reading *, struct values *, const struct descriptor *, 
 /* Reads the file with what it includes, puts overrides in. */
 struct tree *include_read(struct reading *, const char *file, const struct scene_override *,
                           size_t overrides);
+void overrides_put(struct reading *, struct tree *root, const struct scene_override *,
+                   size_t overrides);
 /* {model: NAME, ...} or NAME. `what` is the key: "strength". Descriptor null with a fault. */
 void instance_read(struct reading *, enum gamut_kind, const char *name, const struct tree *,
                    const char *const *also, size_t others, struct instance *);

@@ -45,9 +45,6 @@ struct estimator_host {
 };
 
 struct study {
-  const char *file;
-  struct scene_override *given; /* of the command line */
-  size_t givens;
   struct scene *scene;
   struct registry *registry;
   const struct units *units;

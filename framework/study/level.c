@@ -57,18 +57,8 @@ static void combine(struct study *study, const struct tree *list, bool zip, size
 gamut_status level_scene(const struct study *study, size_t level, struct trace *trace,
                          struct scene **scene)
 {
-  size_t given = study->givens, count = given + study->varies;
-  struct scene_override *all = calloc(count + 1, sizeof *all);
-  if (!all)
-    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
-  if (given)
-    memcpy(all, study->given, given * sizeof *all);
-  if (study->varies)
-    memcpy(all + given, study->level[level].override, study->varies * sizeof *all);
-  gamut_status status =
-      scene_read(study->file, all, count, study->registry, study->units, trace, scene);
-  free(all);
-  return status;
+  return scene_vary(study->scene, study->varies ? study->level[level].override : NULL,
+                    study->varies, study->registry, study->units, trace, scene);
 }
 
 /* Whether a path leads anywhere in a scene: what is set through a list or a value cannot be. */

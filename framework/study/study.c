@@ -20,30 +20,7 @@ bool study_wanted(const struct scene *scene)
   return scene->estimator.descriptor != NULL;
 }
 
-/* The paths are copied: whoever read them may be gone when the study runs. */
-static bool copy_overrides(struct study *study, const struct scene_override *given, size_t count)
-{
-  study->given = calloc(count + 1, sizeof *study->given);
-  for (size_t i = 0; study->given && i < count; i++) {
-    char *path = strdup(given[i].path), *value = strdup(given[i].value);
-    study->given[study->givens++] = (struct scene_override){.path = path, .value = value};
-    if (!path || !value)
-      return false;
-  }
-  return study->given != NULL;
-}
-
-static void free_overrides(struct study *study)
-{
-  for (size_t i = 0; study->given && i < study->givens; i++) {
-    free((char *)study->given[i].path);
-    free((char *)study->given[i].value);
-  }
-  free(study->given);
-}
-
-gamut_status study_new(const char *file, const struct scene_override *given, size_t givens,
-                       struct scene *scene, struct registry *registry, const struct units *units,
+gamut_status study_new(struct scene *scene, struct registry *registry, const struct units *units,
                        const struct study_options *options, struct trace *trace,
                        struct study **made)
 {
@@ -52,7 +29,6 @@ gamut_status study_new(const char *file, const struct scene_override *given, siz
   *made = NULL;
   if (!study)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
-  study->file = file;
   study->scene = scene;
   study->registry = registry;
   study->units = units;
@@ -65,13 +41,9 @@ gamut_status study_new(const char *file, const struct scene_override *given, siz
     study->threads = omp_get_max_threads();
 #endif
   study->threads = study->threads < 1 ? 1 : study->threads;
-  if (!copy_overrides(study, given, givens)) {
-    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
-    goto done;
-  }
   if (!scene->solver.descriptor) {
     status = trace_fail(trace, GAMUT_SCENE,
-                        "%s has no solver: it is a card for other scenes, not a run", file);
+                        "%s has no solver: it is a card for other scenes, not a run", scene->file);
     goto done;
   }
   TRY(draw_prepare(study));
@@ -101,7 +73,6 @@ void study_free(struct study *study)
   free(study->outcome);
   free(study->logged);
   free(study->lower);
-  free_overrides(study);
   free(study);
 }
 
@@ -206,6 +177,7 @@ static gamut_status run_rows(struct study *study, size_t first)
         }
       }
     }
+#pragma omp critical(gamut_study_scene)
     worker_clear(&worker);
   }
   return end == GAMUT_OK && told_to_stop(study) ? GAMUT_STOPPED : end;

@@ -47,10 +47,9 @@ struct study_options {
 struct study;
 /* Whether the scene asks for a study. */
 bool study_wanted(const struct scene *);
-/* `file` and overrides are read again for every level; the overrides are copied, the file's name
- * and the scene are borrowed. Everything is checked before anything runs. */
-gamut_status study_new(const char *file, const struct scene_override *, size_t overrides,
-                       struct scene *, struct registry *, const struct units *,
+/* The scene is borrowed; what is varied are copies of it, so its file may change meanwhile.
+ * Everything is checked before anything runs. */
+gamut_status study_new(struct scene *, struct registry *, const struct units *,
                        const struct study_options *, struct trace *, struct study **);
 void study_free(struct study *); /* accepts null */
 /* Runs to the estimator's end; folder null: nothing is written. GAMUT_NUMERICS if too many runs

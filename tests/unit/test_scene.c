@@ -397,10 +397,10 @@ static void test_sets(void)
 {
   char *words;
   gamut_status status;
-  const struct scene_override set[] = {{"bodies.bar.velocity", "[0 m/s, -200 m/s]"},
-                                       {"bodies.bar.shape.cylinder.length", "30 mm"},
-                                       {"solver.shape", "linear"},
-                                       {"solver.transfer.pic", "0.5"}};
+  const struct scene_override set[] = {{"bodies.bar.velocity", "[0 m/s, -200 m/s]", NULL},
+                                       {"bodies.bar.shape.cylinder.length", "30 mm", NULL},
+                                       {"solver.shape", "linear", NULL},
+                                       {"solver.transfer.pic", "0.5", NULL}};
   struct scene *scene = read_with(GOOD, set, 4, &words, &status);
   if (tap_ok(scene && !words[0], "overrides are read")) {
     tap_relative("vector", scene->body[0].velocity[1], -200, 0);
@@ -411,7 +411,7 @@ static void test_sets(void)
     tap_print_text("said:", words);
   }
   scene_free(scene);
-  const struct scene_override wrong[] = {{"solver.cel", "1 mm"}};
+  const struct scene_override wrong[] = {{"solver.cel", "1 mm", NULL}};
   scene = read_with(GOOD, wrong, 1, &words, &status);
   tap_ok(!scene && status == GAMUT_SCENE && strstr(words, "--set solver.cel") &&
              strstr(words, "did you mean 'cell'?"),
