@@ -5,9 +5,13 @@
  *       source: where the number comes from
  *       parameters: {C0: 3940 m/s, ...}         bare numbers are SI
  *       at: {compression: 0.1, ...}             inputs; states at the beginning by their name; a
- * list gives all components laws: {eos: {model: NAME, ...}, strength: {model: NAME, ...}}
- * elasticity: its callees expect: {pressure: 1.0e9, ...}          outputs; states at the end; null:
- * not a number derivatives: {pressure: {C0: ...}} second_derivatives: {pressure: {C0: {S1: ...}}}
+ *                                               list gives all components
+ *       laws: {eos: {model: NAME, ...}, strength: {model: NAME, ...}}   elasticity: its callees
+ *       kernel: heat                            effect of several tasks: which kernel
+ *       expect: {pressure: 1.0e9, ...}          outputs; states at the end; null: not a number;
+ *                                               what a task adds to counts from 0
+ *       derivatives: {pressure: {C0: ...}}
+ *       second_derivatives: {pressure: {C0: {S1: ...}}}
  *       status: message name                    where the law must flag the point
  *       tolerance: 1e-12                        relative; 1e-12 if not stated
  *       absolute: 0                             allowed besides that
@@ -213,6 +217,17 @@ done:
   return status;
 }
 
+/* What the test calls: the law's own operation, its inverse, or the kernel of an effect's task. */
+static kernel_function function_called(struct answer *a)
+{
+  const struct descriptor *d = a->proof->descriptor;
+  const struct tree *named = tree_get(a->test, "kernel"), *expect = tree_get(a->test, "expect");
+  bool inverse = expect && tree_get(expect, "plastic_strain_inverse");
+  if (d->kind != GAMUT_KIND_EFFECT)
+    return kernel_operation(a->specimen.kernel, inverse ? 1 : 0);
+  return kernel_named(a->specimen.kernel, named ? named->text : d->task[0].kernel);
+}
+
 static bool status_fits(struct answer *a, const char **got, const char **want)
 {
   const struct tree *node = tree_get(a->test, "status");
@@ -226,21 +241,19 @@ static void prove_one(struct proof *proof, const struct tree *test, size_t numbe
 {
   struct answer a = {.proof = proof, .test = test};
   const struct tree *name = tree_get(test, "name");
-  const struct tree *expect = tree_get(test, "expect");
   const char *title = name ? name->text : "unnamed", *got = "ok", *want = "ok";
   struct trace *trace = trace_new();
-  bool inverse = expect && tree_get(expect, "plastic_strain_inverse");
   check_begin(&proof->checks, "known answer %zu: %s", number, title);
   a.tolerance = own_number(&a, "tolerance", 1e-12);
   a.absolute = own_number(&a, "absolute", 0);
   bool made = make(&a, trace) == GAMUT_OK, fits = false;
   if (made) {
     set_inputs(&a);
-    kernel_function function = kernel_operation(a.specimen.kernel, inverse ? 1 : 0);
+    kernel_function function = function_called(&a);
     if (function)
       bench_call(a.bench, function, 1);
     else
-      broken(&a, "no operation", "inverse");
+      broken(&a, "no such operation for", title);
     fits = status_fits(&a, &got, &want);
     compare_outputs(&a);
     if (!a.broken)
@@ -272,7 +285,8 @@ void prove_known_answers(struct proof *proof)
   const struct tree *tests = proof->known ? tree_get(proof->known, "tests") : NULL;
   bool kernel = proof->descriptor->kind == GAMUT_KIND_EOS ||
                 proof->descriptor->kind == GAMUT_KIND_STRENGTH ||
-                proof->descriptor->kind == GAMUT_KIND_ELASTICITY;
+                proof->descriptor->kind == GAMUT_KIND_ELASTICITY ||
+                (proof->descriptor->kind == GAMUT_KIND_EFFECT && proof->descriptor->tasks > 0);
   if (!kernel)
     return;
   if (!tests || tests->children == 0)
