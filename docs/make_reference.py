@@ -87,7 +87,9 @@ FRAME = (
         ("lower", "as the parameter", "Of uniform, beta, triangular."),
         ("upper", "as the parameter", "Of uniform, beta, triangular."),
         ("truncate", "true or [lower, upper]", "Cuts the distribution off: at the physical range, "
-         "or at the given ends."))),
+         "or at the given ends."),
+        ("field", "plugin", "A random field, in parameters that kernels see: every point then has "
+         "its own value. See [random fields](random_fields.md)."))),
 )
 
 REDUCTIONS = (

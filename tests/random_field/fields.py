@@ -85,12 +85,14 @@ def test_distributions():
 def test_companions():
     material = ("eos: {model: linear, youngs_modulus: {mean: 120 GPa, cv: 0.05, field: "
                 f"{{model: karhunen_loeve, kernel: gaussian, {LENGTH}}}}}, poissons_ratio: 0.34}}")
-    text = scene("MORE", "materials.bar.eos.youngs_modulus, materials.bar.eos.bulk_modulus")
+    text = scene("MORE",
+                 "materials.bar.eos.youngs_modulus, materials.bar.eos.bulk_modulus")
     with open(text, encoding="utf-8") as file:
         words = file.read()
     words = words.replace("include: [materials/copper.yaml]\n", "").replace(
         "copper: {MORE}", "bar: {density: 8960 kg/m3, " + material +
-        ", elasticity: {model: hypoelastic, shear_modulus: 45 GPa}}").replace("material: copper", "material: bar")
+        ", elasticity: {model: hypoelastic, shear_modulus: 45 GPa}}")
+    words = words.replace("material: copper", "material: bar")
     with open(text, "w", encoding="utf-8") as file:
         file.write(words)
     result = scenes.run(text)

@@ -67,7 +67,7 @@ static void test_exponential(void)
 
 /* Modes at Gauss's nodes: orthonormal, and eigenfunctions of the covariance. */
 static void test_orthonormal(const char *label, enum covariance covariance, double length,
-                         double allowed)
+                             double allowed)
 {
   enum { NODES = 400, MODES = 12 };
   static double mode[NODES][MODES], room[2048];
@@ -105,7 +105,7 @@ static void test_orthonormal(const char *label, enum covariance covariance, doub
 
 /* All modes together give the covariance back; truncated ones what they hold. */
 static void test_covariance(const char *label, enum covariance covariance, double length,
-                        double energy, double allowed)
+                            double energy, double allowed)
 {
   const double lower[3] = {0, 0, 0}, upper[3] = {1, 0, 0}, lengths[3] = {length, 0, 0};
   struct expansion e = {0};
@@ -132,8 +132,7 @@ static void test_covariance(const char *label, enum covariance covariance, doubl
   snprintf(name, sizeof name, "%s, length %g: variance that %zu modes hold", label, length,
            e.modes);
   tap_absolute(name, held, e.held, covariance == MATERN_3_2 ? 1e-5 : 1e-7);
-  snprintf(name, sizeof name, "%s, length %g: covariance with energy %.10g", label, length,
-           energy);
+  snprintf(name, sizeof name, "%s, length %g: covariance with energy %.10g", label, length, energy);
   tap_absolute(name, worst, 0, allowed);
   gsl_integration_glfixed_table_free(gauss);
   expansion_free(&e);

@@ -16,8 +16,8 @@ struct axis {
   double centre, half; /* of the interval, m */
   double ratio;        /* half over correlation length */
   enum covariance covariance;
-  size_t modes;        /* known; their eigenvalues are above rounding */
-  double *share;       /* eigenvalue over the length of the interval; all that exist add to 1 */
+  size_t modes;  /* known; their eigenvalues are above rounding */
+  double *share; /* eigenvalue over the length of the interval; all that exist add to 1 */
   double *frequency, *size; /* exponential: cos or sin of frequency * xi, times size */
   size_t nodes;             /* others: nodes in the right half */
   double *node, *weight;    /* weight[j * nodes + q]: Nystrom's coefficients of mode j */
@@ -26,8 +26,8 @@ struct axis {
 bool axis_new(struct axis *, enum covariance, double lower, double upper, double length,
               size_t most);
 void axis_free(struct axis *);
-/* value[j] = sqrt(eigenvalue) * eigenfunction of the first `count` modes at x; `room` has two arrays
- * of `nodes` numbers. The squares of all modes add to 1, the variance. */
+/* value[j] = sqrt(eigenvalue) * eigenfunction of the first `count` modes at x; `room` has two
+ * arrays of `nodes` numbers. The squares of all modes add to 1, the variance. */
 void axis_modes(const struct axis *, double x, size_t count, double *room, double *value);
 
 /* ---- products of modes along up to three axes (expansion.c) ------------------------------------
@@ -43,11 +43,11 @@ struct expansion {
   size_t along[AXES]; /* modes in use along each axis */
   struct mode *mode;
   size_t modes;
-  double held;        /* share of the variance that the modes hold */
+  double held; /* share of the variance that the modes hold */
   bool unit_variance;
 };
-/* The fewest modes that hold `energy`, or as many as may be; axes of no extent have none. False when
- * out of memory. */
+/* The fewest modes that hold `energy`, or as many as may be; axes of no extent have none. False
+ * when out of memory. */
 bool expansion_new(struct expansion *, enum covariance, const double lower[AXES],
                    const double upper[AXES], const double length[AXES], double energy,
                    size_t modes_max);

@@ -47,7 +47,8 @@ static gamut_status read_domain(struct field *field, const struct gamut_values *
     if (!(field->lower[k] < field->upper[k]))
       return gamut_fail_at(field->run, values, "domain.upper", "greater than 'lower'",
                            "the domain has no extent along %c", "xyz"[k]);
-  bool known = count[0] > 0 || (host->domain && host->domain(field->run, field->lower, field->upper));
+  bool known =
+      count[0] > 0 || (host->domain && host->domain(field->run, field->lower, field->upper));
   bool extent = false;
   for (int k = 0; k < AXES; k++)
     extent = extent || field->upper[k] > field->lower[k];
@@ -106,13 +107,19 @@ static gamut_status report_modes(const struct field *field, const struct gamut_v
                          "%zu modes hold only %.4g of the variance, %g is wanted: the correlation "
                          "length is short for this domain",
                          e->modes, e->held, energy);
-  GAMUT_HOST(field->run)->note(field->run, "%s: %zu mode%s hold%s %.6g of the variance, %.3g is "
-                               "dropped%s", name, e->modes, e->modes == 1 ? "" : "s",
-                               e->modes == 1 ? "s" : "", e->held, fmax(1.0 - e->held, 0.0),
-                               e->unit_variance ? "; every point is scaled back to variance 1" : "");
+  GAMUT_HOST(field->run)
+      ->note(field->run,
+             "%s: %zu mode%s hold%s %.6g of the variance, %.3g is "
+             "dropped%s",
+             name, e->modes, e->modes == 1 ? "" : "s", e->modes == 1 ? "s" : "", e->held,
+             fmax(1.0 - e->held, 0.0),
+             e->unit_variance ? "; every point is scaled back to variance 1" : "");
   if (e->modes == 1 && e->held > 0.999)
-    GAMUT_HOST(field->run)->note(field->run, "%s: the correlation length is far above the domain: "
-                                 "the field is nearly one random number", name);
+    GAMUT_HOST(field->run)
+        ->note(field->run,
+               "%s: the correlation length is far above the domain: "
+               "the field is nearly one random number",
+               name);
   return GAMUT_OK;
 }
 
@@ -147,8 +154,8 @@ static gamut_status check_places(const struct field *field, size_t count,
         return gamut_fail(field->run, GAMUT_SCENE,
                           "random_field/karhunen_loeve: point %lld with %c = %g m is outside the "
                           "field's domain, %g m to %g m; give a larger 'domain'",
-                          (long long)id[i], "xyz"[k], position[k][i], field->lower[k],
-                          field->upper[k]);
+                          (long long)id[i], "xyz"[k], position[k][i], field -> lower[k],
+                          field -> upper[k]);
   }
   return GAMUT_OK;
 }
@@ -208,9 +215,11 @@ static gamut_status sample_ensemble(struct field *field, const struct gamut_stre
     return gamut_fail(field->run, GAMUT_INTERNAL, "no memory for the ensemble of a random field");
   }
   if (!atomic_flag_test_and_set(&field->told))
-    GAMUT_HOST(field->run)->note(field->run, "random_field/karhunen_loeve: %zu of %zu modes hold "
-                                 "%.6g of the variance, %.3g is dropped", report.modes,
-                                 ensemble->samples, report.held, fmax(1.0 - report.held, 0.0));
+    GAMUT_HOST(field->run)
+        ->note(field->run,
+               "random_field/karhunen_loeve: %zu of %zu modes hold "
+               "%.6g of the variance, %.3g is dropped",
+               report.modes, ensemble->samples, report.held, fmax(1.0 - report.held, 0.0));
   return GAMUT_OK;
 }
 
@@ -268,8 +277,8 @@ static gamut_status sample(const void *self, const struct gamut_stream *stream, 
   if (field->origin == FROM_SAMPLES)
     return sample_ensemble(field, stream, count, id, value);
   for (size_t i = 0; i < count; i++)
-    value[i] = table_at(&field->table,
-                        (const double[]){position[0][i], position[1][i], position[2][i]});
+    value[i] =
+        table_at(&field->table, (const double[]){position[0][i], position[1][i], position[2][i]});
   return GAMUT_OK;
 }
 

@@ -84,13 +84,13 @@ static bool half_solve(const struct axis *axis, const double *root, double sign,
 {
   const size_t n = axis->nodes;
   gsl_eigen_symmv_workspace *work = gsl_eigen_symmv_alloc(n);
-  *half = (struct half_problem){gsl_matrix_alloc(n, n), gsl_matrix_alloc(n, n),
-                                gsl_vector_alloc(n)};
+  *half =
+      (struct half_problem){gsl_matrix_alloc(n, n), gsl_matrix_alloc(n, n), gsl_vector_alloc(n)};
   bool good = work && half->matrix && half->vector && half->value;
   for (size_t i = 0; good && i < n; i++)
     for (size_t k = 0; k < n; k++) {
-      double near = correlation(axis->covariance,
-                                fabs(axis->node[i] - axis->node[k]) * axis->ratio);
+      double near =
+          correlation(axis->covariance, fabs(axis->node[i] - axis->node[k]) * axis->ratio);
       double far = correlation(axis->covariance, (axis->node[i] + axis->node[k]) * axis->ratio);
       gsl_matrix_set(half->matrix, i, k, root[i] * root[k] * (near + sign * far));
     }
@@ -179,8 +179,8 @@ void axis_modes(const struct axis *axis, double x, size_t count, double *room, d
   const double xi = (x - axis->centre) / axis->half;
   const size_t n = axis->nodes;
   for (size_t j = 0; n == 0 && j < count; j++)
-    value[j] = axis->size[j] *
-               (j % 2 ? sin(axis->frequency[j] * xi) : cos(axis->frequency[j] * xi));
+    value[j] =
+        axis->size[j] * (j % 2 ? sin(axis->frequency[j] * xi) : cos(axis->frequency[j] * xi));
   if (n == 0)
     return;
   for (size_t q = 0; q < n; q++) {

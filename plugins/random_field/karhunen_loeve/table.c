@@ -30,8 +30,7 @@ static size_t place_of(const struct table *table, const double *row)
 {
   size_t place = 0;
   for (int k = AXES - 1; k >= 0; k--) {
-    const double *found =
-        bsearch(&row[k], table->line[k], table->count[k], sizeof *found, by_size);
+    const double *found = bsearch(&row[k], table->line[k], table->count[k], sizeof *found, by_size);
     place = place * table->count[k] + (size_t)(found - table->line[k]);
   }
   return place;
