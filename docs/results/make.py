@@ -1,5 +1,5 @@
-"""Measures again what stands in these pages: rewrites the tables between <!-- NAME --> and <!-- end -->
-of the .md files beside it, and the pictures in docs/pictures. Takes about ten minutes.
+"""Measures again what stands in these pages: rewrites the tables between <!-- NAME --> and
+<!-- end --> of the .md files beside it, and the pictures in docs/pictures. Takes about ten minutes.
 
     python3 docs/results/make.py [NAME ...]        the named tables only; `pictures` for those
 """
@@ -48,7 +48,8 @@ def hugoniot():
             f = impact.shock(metal, speed)
             rows.append([metal["name"], f"{speed} m/s", f"{f['pressure_target'] / 1e9:.4f} GPa",
                          percent(f["pressure"] / f["pressure_target"] - 1),
-                         f"{f['speed_target']:.1f} m/s", percent(f["speed"] / f["speed_target"] - 1)])
+                         f"{f['speed_target']:.1f} m/s",
+                         percent(f["speed"] / f["speed_target"] - 1)])
     return table(["metal", "impact", "rho0 Us up", "gamut", "Us", "gamut"], rows)
 
 
@@ -198,7 +199,8 @@ def grids():
             cells += [""] * (4 - len(many))
             last = ""
             if len(found) > 1:
-                last = ", ".join(percent(found[-1][k] / found[-2][k] - 1) for k in ("length", "foot"))
+                last = ", ".join(percent(found[-1][k] / found[-2][k] - 1)
+                                 for k in ("length", "foot"))
             rows.append([taylor_bars.name_of(scene, speed, old), label] + cells + [last])
     return table(["shot", "shape", "6", "12", "18", "24 cells in the radius", "last step"], rows)
 
@@ -236,13 +238,14 @@ def ledger():
         transfer = lines["scatter loss"]["value"] + lines["gather loss"]["value"]
         rows.append([f"`{name}.yaml`", f"{abs(s['ledger']['mass']['relative_residual']):.0e}",
                      f"{worst:.0e}", f"{abs(s['ledger']['energy']['relative_residual']):.0e}",
-                     percent(transfer / start), percent(lines["stress remainder"]["value"] / start)])
+                     percent(transfer / start),
+                     percent(lines["stress remainder"]["value"] / start)])
     return table(["scene", "mass", "momentum", "energy", "lost in transfer", "stress remainder"],
                  rows)
 
 
-TABLES = {f.__name__: f for f in (machine, hugoniot, hugoniot_grids, release, strong, vibrating, kept,
-                                  sod, benchmark, shots, grids, what_if, ledger)}
+TABLES = {f.__name__: f for f in (machine, hugoniot, hugoniot_grids, release, strong, vibrating,
+                                  kept, sod, benchmark, shots, grids, what_if, ledger)}
 
 
 def plot(data, commands, name):

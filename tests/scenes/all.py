@@ -1,5 +1,5 @@
-"""Every scene of inputs/ runs to its end: exit 0, a summary that is whole, quantities in sensible bounds,
-mass and momentum to round-off, a ledger that closes. Prints TAP."""
+"""Every scene of inputs/ runs to its end: exit 0, a summary that is whole, quantities in sensible
+bounds, mass and momentum to round-off, a ledger that closes. Prints TAP."""
 import math
 import os
 import sys

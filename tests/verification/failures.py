@@ -11,8 +11,8 @@ STEPS = (("taylor_bar", "0.5 us"), ("taylor_bar", "0.12 us"), ("taylor_bar", "0.
          ("vibrating_bar", "0.2 s"), ("vibrating_bar", "0.06 s"), ("sod", "10 ms"), ("sod", "4 ms"),
          ("taylor_bar_benchmark", "0.1 us"))
 POINT = re.compile(r"\bpoint \d+ of body '\w+'", re.IGNORECASE)
-STATE = re.compile(r"position (\S+ ){3}m; velocity (\S+ ){3}m/s; volume_ratio \S+ ?; stress (\S+ ){6}"
-                   r"Pa\b", re.IGNORECASE)
+STATE = re.compile(r"position (\S+ ){3}m; velocity (\S+ ){3}m/s; volume_ratio \S+ ?; "
+                   r"stress (\S+ ){6}Pa\b", re.IGNORECASE)
 
 
 def fails(name, scene, changes, words):

@@ -60,7 +60,7 @@ def strong_changes(cells, exact):
 
 
 def strong_targets():
-    """By the jump conditions; the last velocity of the surface by an independent Lagrangian code."""
+    """By the jump conditions; the last velocity of the surface by a Lagrangian code."""
     exact = elastic_plastic_impact(STEEL, YIELD, STRONG_IMPACT)
     times, speeds = plates(STEEL, YIELD, STRONG_IMPACT, 1000, 2.95e-6)
     window = (times > 2.7e-6) & (times < 2.9e-6)

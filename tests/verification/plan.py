@@ -1,5 +1,5 @@
-"""What `gamut explain` says is what happens: bytes as allocated, only the plugins that a scene names
-opened, nothing stored that nobody asked for. Prints TAP."""
+"""What `gamut explain` says is what happens: bytes as allocated, only the plugins that a scene
+names opened, nothing stored that nobody asked for. Prints TAP."""
 import json
 import os
 import re
@@ -21,7 +21,7 @@ def explain(name, changes=None, environment=None):
 
 
 def resident(name, changes):
-    """Largest memory of the whole process of `explain`, by the kernel, and the bytes that it told."""
+    """Largest memory of the whole process of `explain`, by the kernel, and the bytes told."""
     arguments = [scenes.GAMUT, "explain", scenes.scene(name), "--json", "--no-user-plugins"]
     for path, value in changes.items():
         arguments += ["--set", f"{path}={value}"]
@@ -41,8 +41,8 @@ def test_sums(name):
                   f"{name}: the parts add up to {plan['bytes']} bytes")
     a_number = {memory[f["name"]] / f["components"] for f in stored}
     scenes.report(len(a_number) == 1 and min(a_number) >= 8 * plan["points"],
-                  f"{name}: {len(stored)} stored fields, each {min(a_number):.0f} bytes a component "
-                  f"for {plan['points']} points", sorted(a_number))
+                  f"{name}: {len(stored)} stored fields, each {min(a_number):.0f} bytes a "
+                  f"component for {plan['points']} points", sorted(a_number))
     declared = sum(f["bytes_per_point"] for f in stored) + IDS_AND_SORTING
     scenes.report(declared == plan["declared_bytes_per_point"],
                   f"{name}: {declared} bytes a point in fields, ids and sorting")
@@ -67,8 +67,8 @@ def test_kernel():
                     for cell in (0.762, 0.3))
     grown, said = large[0] - small[0], large[1] - small[1]
     scenes.report(0.95 <= grown / said <= 1.2,
-                  f"taylor_bar_3d: the process grows by {grown / 1e6:.1f} MB where {said / 1e6:.1f} "
-                  "MB are told (0.95 to 1.2 of it)")
+                  f"taylor_bar_3d: the process grows by {grown / 1e6:.1f} MB where "
+                  f"{said / 1e6:.1f} MB are told (0.95 to 1.2 of it)")
 
 
 def opened(said):

@@ -21,7 +21,8 @@ def eos(metal, ratio):
     mu = 1.0 / ratio - 1.0
     stiffness = metal["density"] * metal["C0"] ** 2
     slope = metal["gamma0"] + metal["a"] * mu
-    squeezed = (stiffness * mu * (1.0 + (1.0 - 0.5 * metal["gamma0"]) * mu - 0.5 * metal["a"] * mu**2)
+    above = 1.0 + (1.0 - 0.5 * metal["gamma0"]) * mu - 0.5 * metal["a"] * mu**2
+    squeezed = (stiffness * mu * above
                 / (1.0 - (metal["S1"] - 1.0) * mu) ** 2)
     return numpy.where(mu > 0.0, squeezed, stiffness * mu), slope
 
@@ -39,8 +40,8 @@ def root(function, low, high):
 
 
 def elastic_plastic_impact(metal, yield_stress, impact):
-    """Symmetric impact of a perfectly plastic metal: the precursor (a shock to the yield point) and the
-    plastic shock behind it, by the jump conditions. All speeds in the laboratory."""
+    """Symmetric impact of a perfectly plastic metal: the precursor (a shock to the yield point) and
+    the plastic shock behind it, by the jump conditions. All speeds in the laboratory."""
     density = metal["density"]
     ratio = math.exp(-0.5 * yield_stress / metal["G"])
 

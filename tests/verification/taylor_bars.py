@@ -2,8 +2,8 @@
 import scenes
 
 BENCHMARK_RADIUS = 7.22e-3
-# Scene, velocity (m/s), length (mm); measured length, foot and diameter at 0.2 of the old length (mm).
-# Johnson and Cook 1983, as tabulated by B. Banerjee; steel read from figures to about 2 %.
+# Scene, velocity (m/s), length (mm); measured length, foot and diameter at 0.2 of the old length
+# (mm). Johnson and Cook 1983, as tabulated by B. Banerjee; steel read from figures to about 2 %.
 SHOTS = (("taylor_bar", 130, 25.4, 19.56, 9.91, 8.92),
          ("taylor_bar", 146, 25.4, 18.69, 10.67, 9.3),
          ("taylor_bar", 190, 25.4, 16.21, 13.56, 10.1),
