@@ -34,11 +34,14 @@ static void dense_apply(const void *self, const double *x, double *y)
   }
 }
 
-/* The same for (p, q) and (q, p), whatever the rounding. */
+/* The same bits for (p, q) and (q, p): the compiler may join a product and a sum, so that the order
+ * counts. */
 static bool within(const struct bar *bar, size_t p, size_t q, double *distance, double *variance)
 {
-  *distance = fabs(bar->place[p] - bar->place[q]);
-  *variance = 0.5 * (bar->spread[p] * bar->spread[p] + bar->spread[q] * bar->spread[q]);
+  size_t low = p < q ? p : q, high = p < q ? q : p;
+  double one = bar->spread[low], other = bar->spread[high];
+  *distance = bar->place[high] - bar->place[low];
+  *variance = 0.5 * (one * one + other * other);
   return *distance * *distance <= reach * reach * *variance;
 }
 
