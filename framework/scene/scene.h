@@ -202,8 +202,8 @@ struct scene_override {
  * that the scene names but that is broken as GAMUT_PLUGIN. Nothing is opened or run. */
 gamut_status scene_read(const char *file, const struct scene_override *, size_t overrides,
                         struct registry *, const struct units *, struct trace *, struct scene **);
-/* The same scene with some of it overridden, checked anew. No file is read again but those of tables.
- * The two share texts: not for two threads at once, nor is scene_free of either. */
+/* The same scene with some of it overridden, checked anew. No file is read again but those of
+ * tables. The two share texts: not for two threads at once, nor is scene_free of either. */
 gamut_status scene_vary(const struct scene *, const struct scene_override *, size_t overrides,
                         struct registry *, const struct units *, struct trace *, struct scene **);
 void scene_free(struct scene *);
