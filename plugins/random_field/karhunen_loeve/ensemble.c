@@ -25,31 +25,35 @@ static void fill_rows(const struct ensemble *ensemble, const struct gamut_stream
   }
 }
 
-/* Householder's triangle of the n x n triangle on top of `rows` more rows, all column by column in
- * `a` with `stride` numbers a column. */
-static void triangulate(double *a, size_t stride, size_t n, size_t rows)
+/* Householder's triangle of the n x n triangle on top of `rows` more rows, all row by row in `a`,
+ * so that every inner loop runs over columns. `sum` has room for n numbers. */
+static void triangulate(double *restrict a, size_t n, size_t rows, double *restrict sum)
 {
+  double *restrict more = a + n * n;
   for (size_t k = 0; k < n; k++) {
-    double *own = a + k * stride, square = 0.0;
-    for (size_t i = n; i < n + rows; i++)
-      square += own[i] * own[i];
+    double *restrict top = a + k * n, square = 0.0;
+    for (size_t i = 0; i < rows; i++)
+      square += more[i * n + k] * more[i * n + k];
     if (square == 0.0)
       continue;
-    double head = own[k], norm = sqrt(head * head + square);
-    double pivot = head > 0.0 ? -norm : norm, v = head - pivot;
+    double norm = sqrt(top[k] * top[k] + square);
+    double pivot = top[k] > 0.0 ? -norm : norm, v = top[k] - pivot;
     double scale = -1.0 / (pivot * v);
-    for (size_t c = k + 1; c < n; c++) {
-      double *other = a + c * stride, sum = v * other[k];
-      for (size_t i = n; i < n + rows; i++)
-        sum += own[i] * other[i];
-      sum *= scale;
-      other[k] -= sum * v;
-      for (size_t i = n; i < n + rows; i++)
-        other[i] -= sum * own[i];
+    for (size_t c = k; c < n; c++)
+      sum[c] = v * top[c];
+    for (size_t i = 0; i < rows; i++)
+      for (size_t c = k; c < n; c++)
+        sum[c] += more[i * n + k] * more[i * n + c];
+    for (size_t c = k; c < n; c++)
+      sum[c] *= scale;
+    for (size_t c = k + 1; c < n; c++)
+      top[c] -= sum[c] * v;
+    for (size_t i = 0; i < rows; i++) {
+      double own = more[i * n + k];
+      for (size_t c = k + 1; c < n; c++)
+        more[i * n + c] -= sum[c] * own;
     }
-    own[k] = pivot;
-    for (size_t i = n; i < n + rows; i++)
-      own[i] = 0.0;
+    top[k] = pivot;
   }
 }
 
@@ -57,22 +61,20 @@ static void triangulate(double *a, size_t stride, size_t n, size_t rows)
 static bool small_factor(const struct ensemble *ensemble, const struct gamut_stream *stream,
                          size_t count, const int64_t *id, double *kept, double *factor)
 {
-  const size_t n = ensemble->samples, stride = n + BATCH;
-  double *a = calloc(n * stride, sizeof *a), *batch = calloc(BATCH * n, sizeof *batch);
-  bool good = a && batch;
+  const size_t n = ensemble->samples;
+  double *a = calloc(n * (n + BATCH), sizeof *a), *sum = calloc(n, sizeof *sum);
+  bool good = a && sum;
   for (size_t from = 0; good && from < count; from += BATCH) {
     size_t rows = count - from < BATCH ? count - from : BATCH;
-    double *row = kept ? kept + from * n : batch;
-    fill_rows(ensemble, stream, rows, id + from, row);
-    for (size_t i = 0; i < rows; i++)
-      for (size_t k = 0; k < n; k++)
-        a[k * stride + n + i] = row[i * n + k];
-    triangulate(a, stride, n, rows);
+    fill_rows(ensemble, stream, rows, id + from, a + n * n);
+    if (kept)
+      memcpy(kept + from * n, a + n * n, rows * n * sizeof *kept);
+    triangulate(a, n, rows, sum);
   }
-  for (size_t k = 0; good && k < n; k++)
-    memcpy(factor + k * n, a + k * stride, n * sizeof *factor); /* column k */
+  if (good)
+    memcpy(factor, a, n * n * sizeof *factor); /* what is below its diagonal does not count */
   free(a);
-  free(batch);
+  free(sum);
   return good;
 }
 
@@ -87,7 +89,7 @@ static bool projector(const struct ensemble *ensemble, const double *factor, siz
   double all = 0.0, held = 0.0;
   for (size_t i = 0; good && i < n; i++)
     for (size_t k = i; k < n; k++)
-      gsl_matrix_set(u, i, k, factor[k * n + i]);
+      gsl_matrix_set(u, i, k, factor[i * n + k]);
   good = good && gsl_linalg_SV_decomp_jacobi(u, v, s) == 0;
   for (size_t j = 0; good && j < n; j++)
     all += gsl_vector_get(s, j) * gsl_vector_get(s, j);
