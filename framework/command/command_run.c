@@ -117,6 +117,7 @@ static gamut_status run_scene(struct command *command, const struct run_argument
   trace_print(command->trace, stderr);
   catch_signals();
   marched = run_march(run, command->trace);
+  run_warn(run, command->trace);
   progress_free(progress);
   progress = NULL;
   status = write_results(run, store, marched, arguments, command);

@@ -71,9 +71,6 @@ void suite_derivatives(struct suite *suite, size_t operation)
   prove_derivatives(proof, &suite->block, kernel_operation(suite->specimen.kernel, 0));
 }
 
-/* ---- variants ----------------------------------------------------------------------------------
- */
-
 /* The parameters of a point as the condition's variables; NaN for what kernels do not see. */
 static double *point_parameters(const struct suite *suite, size_t point, double *value)
 {
@@ -105,6 +102,8 @@ static double variant_error(struct suite *suite, const struct variant *variant, 
   double *kept = calloc(proof->slots * BLOCK_POINTS + 1, sizeof *kept);
   const char **name = calloc(d->parameters + 1, sizeof *name);
   char why[200];
+  if (!value || !kept || !name)
+    abort(); /* the checks are a process of their own */
   for (size_t i = 0; i < d->parameters; i++)
     name[i] = d->parameter[i].name;
   struct expression *when = expression_new(variant->when, name, d->parameters, why, sizeof why);

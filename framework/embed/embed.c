@@ -157,12 +157,16 @@ static gamut_status run_and_record(struct gamut_session *session, struct scene *
   const struct run_options options = {.threads = request->threads, .seed = scene->seed};
   size_t count;
   TRY(run_new(scene, session->registry, &options, session->trace, &run));
+  status = run_start(run, session->trace);
+  if (status == GAMUT_SCENE)
+    goto done;
   if (request->folder) {
     TRY(store_open(request->folder, request->force != 0, session->trace, &store));
     run_record(run, store);
     TRY(store_scene(store, scene->tree, session->trace));
   }
   marched = run_march(run, session->trace);
+  run_warn(run, session->trace);
   *summary = run_summary(run, marched, session->registry);
   if (store) {
     struct history *const *history = run_histories(run, &count);

@@ -3,32 +3,9 @@
 #include <string.h>
 
 #include "field/vocabulary.h"
-#include "material/law.h"
+#include "material/bound.h"
 
-enum { ELASTICITY, STRENGTH, EOS, ROLES, SLACK = 24 };
-
-/* What one thread needs to update a block. */
-struct seat {
-  struct image *image;
-  struct law *law[ROLES]; /* of strength and eos */
-  double *scratch;
-  double *zero, *sink;
-  struct tally tally[ROLES];
-  double step_factor; /* smallest asked for since it was last taken */
-};
-
-struct bound_material {
-  const struct material *material;
-  struct kernel *kernel[ROLES]; /* strength and eos may be null */
-  struct links links[ROLES];
-  struct gamut_use *use;
-  size_t uses;
-  struct seat *seat;
-  size_t threads, chunk;
-  struct arena *arena;
-  size_t temperature, plastic_strain; /* components that fill a law's arguments; SIZE_MAX: none */
-  size_t step_factor;                 /* component, where the elasticity gives one */
-};
+enum { SLACK = 24 };
 
 /* Arguments of a law are set by its caller; only other inputs come from fields. */
 static bool is_argument(int role, const char *name)
@@ -96,6 +73,17 @@ static void collect_uses(struct bound_material *bound, int role)
   for (size_t s = 0; s < bound->kernel[role]->slots; s++)
     if (slot_varies(bound->kernel[role], s))
       add_use(bound, bound->kernel[role]->path[s], GAMUT_READ_BEGIN);
+}
+
+static size_t uses_at_most(const struct material *material)
+{
+  const struct instance *part[ROLES] = {&material->elasticity, &material->strength, &material->eos};
+  size_t most = 1;
+  for (int role = 0; role < ROLES; role++) {
+    const struct descriptor *d = part[role]->descriptor;
+    most += d ? d->inputs + 2 * d->states + d->outputs + d->parameters + d->material_parameters : 0;
+  }
+  return most;
 }
 
 static gamut_status make_kernel(struct bound_material *bound, int role,
@@ -179,14 +167,11 @@ static gamut_status check_laws(const struct bound_material *bound, struct trace 
   for (size_t i = 0; i < d->laws; i++) {
     bool strength = strcmp(d->law[i].name, "strength") == 0;
     if (!d->law[i].optional && !bound->kernel[strength ? STRENGTH : EOS])
-      return trace_fail_at(trace, GAMUT_SCENE, &m->node->place, m->name,
+      return trace_fail_at(trace, GAMUT_SCENE, &m->node->place, NULL,
                            "give the material one; `gamut list` shows what there is",
                            "%s needs an `%s:`, material '%s' has none", d->id, d->law[i].name,
                            m->name);
   }
-  if (m->eos.descriptor && !wants_law(d, "eos"))
-    return trace_fail_at(trace, GAMUT_SCENE, &m->node->place, m->name,
-                         "leave the `eos:` out", "%s takes no eos", d->id);
   return GAMUT_OK;
 }
 
@@ -202,10 +187,17 @@ gamut_status material_new(const struct material *material, struct registry *regi
   bound->arena = arena;
   bound->chunk = chunk;
   bound->threads = (size_t)threads;
-  bound->use = calloc(256, sizeof *bound->use);
+  bound->use = calloc(uses_at_most(material), sizeof *bound->use);
+  if (!bound->use) {
+    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
   TRY(make_kernel(bound, ELASTICITY, &material->elasticity, registry, fields, trace));
-  TRY(make_kernel(bound, STRENGTH, &material->strength, registry, fields, trace));
-  TRY(make_kernel(bound, EOS, &material->eos, registry, fields, trace));
+  /* What a card gives and this elasticity does not call is not opened. */
+  if (wants_law(material->elasticity.descriptor, "strength"))
+    TRY(make_kernel(bound, STRENGTH, &material->strength, registry, fields, trace));
+  if (wants_law(material->elasticity.descriptor, "eos"))
+    TRY(make_kernel(bound, EOS, &material->eos, registry, fields, trace));
   TRY(check_laws(bound, trace));
   bound->temperature = component_or_none(fields, "temperature");
   bound->plastic_strain = component_or_none(fields, "plastic_strain");
@@ -326,75 +318,6 @@ void material_start(struct bound_material *bound, const struct gamut_chunk *chun
   follow(bound, seat, chunk);
   if (start)
     start(seat->image);
-}
-
-/* Points the parameters of a law that have a random field at the values of a slot and its
- * neighbours; whether there are any. */
-static bool follow_parameters(const struct law *law, const struct point_set *set, size_t slot)
-{
-  bool any = false;
-  for (size_t s = 0; law && s < law->kernel->slots; s++) {
-    const struct field *field =
-        slot_varies(law->kernel, s) ? fields_find(set->fields, law->kernel->path[s]) : NULL;
-    double *array = field ? set_stored(set, field->handle, 0) : NULL;
-    if (array)
-      law->image->pointer[s] = array + slot;
-    any = any || array;
-  }
-  return any;
-}
-
-/* Energy at which the eos gives the pressure at zero compression. */
-static gamut_status energy_of_pressure(struct bound_material *bound, const struct gamut_body *body,
-                                       double *energy, struct trace *trace)
-{
-  struct law *law = bound->seat[0].law[EOS];
-  double e = 0.0;
-  for (int i = 0; law && i < 60; i++) {
-    law_begin(law, GAMUT_LANES);
-    for (int k = 0; k < GAMUT_LANES; k++) {
-      law->eos.compression[k] = 0.0;
-      law->eos.energy[k] = e;
-    }
-    law->eos.evaluate(&law->eos, NULL, 0);
-    double miss = law->eos.pressure[0] - body->pressure, slope = law->eos.pressure_slope_energy[0];
-    if (fabs(miss) <= 1e-14 * fabs(body->pressure)) {
-      *energy = e;
-      return GAMUT_OK;
-    }
-    if (!(fabs(slope) > 0.0))
-      break;
-    e -= miss / slope;
-  }
-  return trace_fail_at(trace, GAMUT_SCENE, &body->node->place, "pressure",
-                       "give `energy:`, or an eos whose pressure depends on energy",
-                       "body '%s' cannot start at %g Pa: its eos has no energy for that",
-                       body->name, body->pressure);
-}
-
-gamut_status material_initial(struct bound_material *bound, struct point_set *set,
-                              const struct gamut_body *body, struct trace *trace)
-{
-  gamut_status status = GAMUT_OK;
-  double energy = body->has_energy ? body->energy : 0.0;
-  bool sought = body->has_pressure && body->pressure != 0.0;
-  bool differs = sought && follow_parameters(bound->seat[0].law[EOS], set, 0);
-  if (sought)
-    TRY(energy_of_pressure(bound, body, &energy, trace));
-  const struct { const char *name; double value; } initial[] = {
-      {"temperature", body->temperature}, {"energy", energy}};
-  for (int f = 0; f < 2; f++) {
-    const struct field *field = fields_find(set->fields, initial[f].name);
-    double *array = field ? set_stored(set, field->handle, 0) : NULL;
-    for (size_t i = 0; array && i < set->open.slots; i++)
-      array[i] = initial[f].value;
-    for (size_t i = 0; differs && f == 1 && array && i < set->open.slots; i++) {
-      follow_parameters(bound->seat[0].law[EOS], set, i);
-      TRY(energy_of_pressure(bound, body, &array[i], trace));
-    }
-  }
-done:
-  return status;
 }
 
 const struct kernel *material_kernel(const struct bound_material *bound, enum gamut_kind kind)

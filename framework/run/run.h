@@ -44,6 +44,9 @@ gamut_status run_start(struct gamut_run *, struct trace *);
  * open. */
 gamut_status run_march(struct gamut_run *, struct trace *);
 
+/* Warns once of each thing that plugins warned of at points, with its count. */
+void run_warn(const struct gamut_run *, struct trace *);
+
 /* What came out. Owned by the run. */
 struct run_cost {
   uint64_t points, steps; double wall, cpu; size_t bytes, peak; double bytes_per_point;

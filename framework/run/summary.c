@@ -102,7 +102,7 @@ static json_t *ledger_json(const struct gamut_run *run)
   return all;
 }
 
-static void add_flag(json_t *all, const struct flag_report *report)
+static void add_flag(void *all, const struct flag_report *report)
 {
   static const char *const severity[] = {"fine", "note", "warn", "stop"};
   json_array_append_new(
@@ -112,17 +112,35 @@ static void add_flag(json_t *all, const struct flag_report *report)
 }
 
 /* What kernels flagged: nothing is clamped or left in silence. */
-static json_t *flags_json(const struct gamut_run *run)
+static void each_flag(const struct gamut_run *run, void (*tell)(void *, const struct flag_report *),
+                      void *self)
 {
-  json_t *all = json_array();
   struct flag_report report;
   for (size_t m = 0; m < run->scene->materials; m++)
     for (size_t i = 0; run->material[m] && material_flag(run->material[m], i, &report); i++)
-      add_flag(all, &report);
+      tell(self, &report);
   for (size_t e = 0; e < run->effects; e++)
     for (size_t i = 0; run->effect[e].bound && effect_flag(run->effect[e].bound, i, &report); i++)
-      add_flag(all, &report);
+      tell(self, &report);
+}
+
+static json_t *flags_json(const struct gamut_run *run)
+{
+  json_t *all = json_array();
+  each_flag(run, add_flag, all);
   return all;
+}
+
+static void warn_of_flag(void *trace, const struct flag_report *report)
+{
+  if (report->message->severity == GAMUT_WARN)
+    trace_warn_at(trace, NULL, NULL, NULL, "%s: %s (at a point and step: %llu times)",
+                  report->plugin->id, report->message->text, (unsigned long long)report->count);
+}
+
+void run_warn(const struct gamut_run *run, struct trace *trace)
+{
+  each_flag(run, warn_of_flag, trace);
 }
 
 static json_t *cost_json(const struct gamut_run *run)

@@ -1,0 +1,32 @@
+/* The inside of a material in a run. */
+#ifndef GAMUT_BOUND_H
+#define GAMUT_BOUND_H
+
+#include "material/law.h"
+
+enum { ELASTICITY, STRENGTH, EOS, ROLES };
+
+/* What one thread needs to update a block. */
+struct seat {
+  struct image *image;
+  struct law *law[ROLES]; /* of strength and eos */
+  double *scratch;
+  double *zero, *sink;
+  struct tally tally[ROLES];
+  double step_factor; /* smallest asked for since it was last taken */
+};
+
+struct bound_material {
+  const struct material *material;
+  struct kernel *kernel[ROLES]; /* strength and eos may be null */
+  struct links links[ROLES];
+  struct gamut_use *use;
+  size_t uses;
+  struct seat *seat;
+  size_t threads, chunk;
+  struct arena *arena;
+  size_t temperature, plastic_strain; /* components that fill a law's arguments; SIZE_MAX: none */
+  size_t step_factor;                 /* component, where the elasticity gives one */
+};
+
+#endif
