@@ -37,25 +37,48 @@ FRAME = (
         ("source", "text or list", "Where the numbers come from."))),
     ("A body", ("bodies", "*"), (
         ("material", "name", "One of the materials. Required."),
-        ("shape", "mapping", "One of the shapes below."),
+        ("shape", "mapping", "One of the shapes below, or `union`: a list of them. Where a shape has "
+         "no formula for its volume (a union of parts that overlap, a difference) that of the "
+         "points is taken, and said."),
         ("velocity", "m/s, by component", "Numbers with units, or text with arithmetic in `x`, "
          "`y`, `z` (metres) that gives m/s. As many as the geometry has axes. Zero unless stated."),
         ("temperature", "K", "At the start; 298 K unless stated."),
         ("pressure", "Pa", "At the start; 0 unless stated."),
         ("energy", "J/m3", "At the start, per reference volume, in place of pressure."))),
-    ("Shape: box", ("bodies", "*", "shape", "box"), (
+    ("Shape: box", ("$defs", "shape", "box"), (
         ("min", "m, by component", "Lowest corner."),
         ("max", "m, by component", "Highest corner."),
         ("size", "m, by component", "In place of `min` and `max`."),
         ("centre", "m, by component", "With `size`; the origin unless stated."))),
-    ("Shape: cylinder", ("bodies", "*", "shape", "cylinder"), (
+    ("Shape: cylinder", ("$defs", "shape", "cylinder"), (
         ("radius", "m", "Required."),
         ("length", "m", "From the base along the axis."),
         ("axis", "x, y or z", "y unless stated; in plane strain z, without end."),
         ("base", "m, by component", "Centre of the base; the origin unless stated."))),
-    ("Shape: sphere", ("bodies", "*", "shape", "sphere"), (
+    ("Shape: sphere", ("$defs", "shape", "sphere"), (
         ("radius", "m", "Required."),
         ("centre", "m, by component", "The origin unless stated."))),
+    ("Shape: tube", ("$defs", "shape", "tube"), (
+        ("radius", "m", "Outer one. Required."),
+        ("inner_radius", "m", "Required."),
+        ("length", "m", "From the base along the axis."),
+        ("axis", "x, y or z", "y unless stated; in plane strain z, without end."),
+        ("base", "m, by component", "Centre of the base; the origin unless stated."))),
+    ("Shape: cone", ("$defs", "shape", "cone"), (
+        ("radius", "m", "Of the base. Required."),
+        ("top_radius", "m", "At the other end; 0, a point, unless stated."),
+        ("length", "m", "From the base along the axis."),
+        ("axis", "x, y or z", "y unless stated."),
+        ("base", "m, by component", "Centre of the base; the origin unless stated."))),
+    ("Shape: difference", ("$defs", "shape", "difference"), (
+        ("from", "shape", "What something is taken from. Required."),
+        ("remove", "list of shapes", "What is taken away. Required."))),
+    ("Shape: points", ("$defs", "shape", "points"), (
+        ("file", "name", "A CSV file beside the scene. Its first line names the columns `x`, `y`, "
+         "`z` (as many as there are axes) and `volume`, in SI or with their units: "
+         "`x [mm], y [mm], volume [mm2]`. Volume is an area in plane strain, a length in 1d, that "
+         "of the full circle where axisymmetric. Required."),
+        ("spacing", "m", "Edge of the square that each point stands for, in place of `volume`."))),
     ("A quantity", ("quantities", "*"), (
         ("measure", "name", "A measure of the solver, the elasticity or an effect, or a field's "
          "component such as `velocity_y`. Required. Arguments of the measure are further keys."),
@@ -111,8 +134,8 @@ def ask(gamut, *arguments):
 
 def schema_keys(schema, place):
     """Keys of the mapping at a place of the schema."""
-    node = schema["$defs"]["random"] if place == ("$defs", "random") else schema
-    for step in () if place == ("$defs", "random") else place:
+    node = schema["$defs"][place[1]] if place[:1] == ("$defs",) else schema
+    for step in place[2:] if place[:1] == ("$defs",) else place:
         node = node["additionalProperties"] if step == "*" else node["properties"][step]
     return set(node["properties"])
 

@@ -91,24 +91,16 @@ static bool host_body_contains(const struct gamut_body *body, const double x[3])
 
 static double host_body_volume(const struct gamut_body *body, unsigned dimension, bool revolved)
 {
-  const double pi = 3.14159265358979323846;
-  const struct shape *shape = &body->shape;
-  double r = shape->radius, volume = 1.0, x[3], y[3];
-  if (shape->kind == SHAPE_NONE)
-    return 0.0;
-  shape_bounds(shape, x, y);
-  if (shape->kind == SHAPE_SPHERE)
-    return dimension == 3 || revolved ? 4.0 / 3.0 * pi * r * r * r
-           : dimension == 2           ? pi * r * r
-                                      : 2 * r;
-  if (shape->kind == SHAPE_CYLINDER && (dimension == 3 || revolved))
-    return pi * r * r * shape->length;
-  if (shape->kind == SHAPE_CYLINDER && dimension == 2 && shape->axis == 2)
-    return pi * r * r;
-  for (unsigned k = 0; k < dimension; k++)
-    volume *= revolved && k == 0 ? pi * (y[0] * y[0] - fmax(x[0], 0.0) * fmax(x[0], 0.0))
-                                 : y[k] - x[k];
-  return volume;
+  return shape_volume(&body->shape, dimension, revolved);
+}
+
+static size_t host_body_points(const struct gamut_body *body, const double **place,
+                               const double **volume)
+{
+  const struct shape_points *points = &body->shape.points;
+  *place = points->place;
+  *volume = points->volume;
+  return body->shape.kind == SHAPE_POINTS ? points->count : 0;
 }
 
 static void host_body_velocity(const struct gamut_body *body, const double x[3], double v[3])
@@ -311,4 +303,5 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .sample = host_sample,
                                     .domain = host_domain,
                                     .note = host_note,
-                                    .law_places = host_law_places};
+                                    .law_places = host_law_places,
+                                    .body_points = host_body_points};

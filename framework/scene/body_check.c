@@ -27,6 +27,18 @@ static bool common_bounds(const struct reading *reading, const struct gamut_body
   return true;
 }
 
+/* A shape of points overlaps another where one of its points lies in it. */
+static bool points_overlap(const struct shape *points, const struct shape *other, double where[3])
+{
+  for (size_t i = 0; i < points->points.count; i++) {
+    for (size_t k = 0; k < 3; k++)
+      where[k] = points->points.place[3 * i + k];
+    if (shape_inside(other, where, 1e-6 * points->points.half[i]))
+      return true;
+  }
+  return false;
+}
+
 /* Boxes overlap where their bounds do. Other shapes are tried on a lattice of up to 10^5 points. */
 static bool overlap(const struct reading *reading, const struct gamut_body *one,
                     const struct gamut_body *two, double where[3])
@@ -49,6 +61,10 @@ static bool overlap(const struct reading *reading, const struct gamut_body *one,
   }
   if (boxes)
     return true;
+  if (one->shape.kind == SHAPE_POINTS)
+    return points_overlap(&one->shape, &two->shape, where);
+  if (two->shape.kind == SHAPE_POINTS)
+    return points_overlap(&two->shape, &one->shape, where);
   for (size_t i = 0; i < points; i++) {
     size_t rest = i;
     for (unsigned k = 0; k < axes; k++, rest /= n)

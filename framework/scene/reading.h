@@ -101,6 +101,9 @@ bool amount_read(struct reading *, const struct tree *, const char *name, const 
 double *vector_read(struct reading *, const struct tree *, const char *name, const char *unit,
                     size_t least, size_t most, size_t *count);
 bool table_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
+/* The rows of the CSV file that the node names, beside the file in which it does. */
+bool table_file_read(struct reading *, const struct parameter *, const struct tree *name,
+                     struct value *);
 bool levels_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
 bool plugin_read(struct reading *, enum gamut_kind, const struct tree *, struct value *);
 bool random_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
@@ -169,6 +172,12 @@ const char *field_unit(const struct reading *, const char *name, bool component)
 /* All such names, for suggestions; allocated. */
 const char **field_names(struct reading *, bool component, size_t *count);
 const char *axis_unit(const struct reading *); /* of the solver's axis: "s" */
+
+/* {file:, spacing:}: points and their volumes. */
+bool shape_points_read(struct reading *, const struct tree *, struct shape *);
+/* A length; it may be 0 where `least` is. */
+bool length_read(struct reading *, const struct tree *mapping, const char *key, bool required,
+                 bool zero, double *length);
 
 /* True if x is in the shape and farther than `margin` from its surface. */
 bool shape_inside(const struct shape *, const double x[3], double margin);

@@ -48,6 +48,8 @@ struct value {
   double *number;
   size_t numbers;                /* VECTOR, or TABLE row by row (numbers = rows x columns) */
   struct expression *expression; /* EXPRESSION */
+  struct expression **each;      /* copies of it, one a thread, for who asked for them */
+  size_t copies;
   struct gamut_values *group;    /* GROUP, never null for one; and of `model` */
   const struct descriptor *model; /* PLUGIN, or the field of a random REAL; else null */
   const struct tree *levels;     /* LEVELS: the mapping of paths to lists */
@@ -85,15 +87,42 @@ struct material {
   const struct tree *node;
 };
 
-enum shape_kind { SHAPE_NONE, SHAPE_BOX, SHAPE_CYLINDER, SHAPE_SPHERE };
+enum shape_kind {
+  SHAPE_NONE,
+  SHAPE_BOX,
+  SHAPE_CYLINDER,
+  SHAPE_SPHERE,
+  SHAPE_TUBE,
+  SHAPE_CONE,
+  SHAPE_UNION,
+  SHAPE_DIFFERENCE,
+  SHAPE_POINTS
+};
+/* Points from a file, each a cube (square, length) of its volume around its place. */
+struct shape_points {
+  size_t count;
+  double *place;  /* x, y, z of one after the other */
+  double *volume; /* of the full circle where axisymmetric; area or length where axes lack */
+  double *half;   /* half the edge */
+};
 struct shape {
   enum shape_kind kind;
+  bool revolved;             /* of an axisymmetric scene: no negative radius */
   double lower[3], upper[3]; /* box; unbounded (-inf, inf) in directions a geometry lacks */
-  double centre[3];          /* sphere; centre of a cylinder's base */
+  double centre[3];          /* sphere; centre of the base of a cylinder, tube or cone */
   double radius, length;     /* cylinder: from the base along +axis; an axisymmetric scene has
                                 axis y and radius along x; in plane strain axis z, length inf */
+  double inner_radius;       /* tube */
+  double top_radius;         /* cone */
   int axis;
+  struct shape *part; /* union: all of them; difference: the first without the others */
+  size_t parts;
+  struct shape_points points;
 };
+/* Distance from the surface, positive inside; where shapes are joined a lower bound of it. */
+double shape_depth(const struct shape *, const double x[3]);
+/* Exact volume in a space of so many axes, or revolved; 0 where there is no formula for it. */
+double shape_volume(const struct shape *, unsigned dimension, bool revolved);
 bool shape_contains(const struct shape *, const double x[3]); /* closed set */
 void shape_bounds(const struct shape *, double lower[3], double upper[3]);
 

@@ -177,13 +177,29 @@ static json_t *shape_schema(void)
                        "axis", "enum", "x", "y", "z", "base", place),
              true);
   json_t *sphere = object(json_pack("{s:O, s:O}", "radius", length, "centre", place), true);
+  json_t *tube =
+      object(json_pack("{s:O, s:O, s:O, s:{s:[s, s, s]}, s:O}", "radius", length, "inner_radius",
+                       length, "length", length, "axis", "enum", "x", "y", "z", "base", place),
+             true);
+  json_t *cone =
+      object(json_pack("{s:O, s:O, s:O, s:{s:[s, s, s]}, s:O}", "radius", length, "top_radius",
+                       length, "length", length, "axis", "enum", "x", "y", "z", "base", place),
+             true);
+  json_t *points =
+      object(json_pack("{s:{s:s}, s:O}", "file", "type", "string", "spacing", length), true);
+  json_t *difference = object(json_pack("{s:o, s:o}", "from", reference("shape"), "remove",
+                                        list_of(reference("shape"), 1, 0)),
+                              true);
   json_decref(place);
   json_decref(length);
   json_t *shape = object(
-      json_pack("{s:o, s:o, s:o}", "box", box, "cylinder", cylinder, "sphere", sphere), true);
+      json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "box", box, "cylinder", cylinder,
+                "sphere", sphere, "tube", tube, "cone", cone, "union",
+                list_of(reference("shape"), 1, 0), "difference", difference, "points", points),
+      true);
   json_object_set_new(shape, "minProperties", json_integer(1));
   json_object_set_new(shape, "maxProperties", json_integer(1));
-  return described(shape, "one of box, cylinder, sphere");
+  return described(shape, "one shape");
 }
 
 static json_t *material_schema(const struct registry *registry)
@@ -210,7 +226,7 @@ static json_t *body_schema(const struct registry *registry)
   json_t *component = json_pack("{s:[s, s]}", "type", "string", "number");
   json_t *properties =
       json_pack("{s:{s:s}, s:o, s:o, s:o, s:o, s:o}", "material", "type", "string", "shape",
-                shape_schema(), "velocity",
+                reference("shape"), "velocity",
                 described(list_of(component, 1, 3),
                           "numbers with units, or arithmetic in x, y, z (metres) that gives m/s"),
                 "temperature", described(reference("quantity"), "298 K where it is not stated [K]"),
@@ -255,7 +271,8 @@ static json_t *definitions(const struct registry *registry)
                        "field", reference(kind_name(GAMUT_KIND_RANDOM_FIELD))),
              true);
   json_decref(value);
-  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o}", "number", pure, "quantity",
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "shape", shape_schema(), "number",
+                   pure, "quantity",
                    json_pack("{s:s, s:s, s:[s]}", "type", "string", "pattern",
                              "^[-+]?[0-9.]+([eE][-+]?[0-9]+)? ", "examples", "0.4 mm"),
                    "random", random, kind_name(GAMUT_KIND_RANDOM_FIELD),

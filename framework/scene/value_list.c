@@ -169,18 +169,10 @@ static bool csv_read(struct reading *reading, struct csv *csv, FILE *file, struc
   return fine && value->numbers > 0;
 }
 
-static bool table_from_file(struct reading *reading, const struct parameter *parameter,
-                            const struct tree *node, struct value *value)
+bool table_file_read(struct reading *reading, const struct parameter *parameter,
+                     const struct tree *name, struct value *value)
 {
-  static const char *const known[] = {"file"};
   char path[1024];
-  const struct tree *name = tree_get(node, "file");
-  expect_keys(reading, node, known, 1, "a table");
-  if (!name || name->kind != TREE_SCALAR) {
-    blame_value(reading, node, "rows in brackets, or {file: NAME.csv}", "table '%s' names no file",
-                parameter->name);
-    return false;
-  }
   const char *from = name->place.file ? name->place.file : "";
   const char *slash = strrchr(from, '/');
   bool absolute = name->text[0] == '/' || !slash;
@@ -194,6 +186,19 @@ static bool table_from_file(struct reading *reading, const struct parameter *par
   bool fine = csv_read(reading, &csv, file, value);
   fclose(file);
   return fine;
+}
+
+static bool table_from_file(struct reading *reading, const struct parameter *parameter,
+                            const struct tree *node, struct value *value)
+{
+  static const char *const known[] = {"file"};
+  const struct tree *name = tree_get(node, "file");
+  expect_keys(reading, node, known, 1, "a table");
+  if (name && name->kind == TREE_SCALAR)
+    return table_file_read(reading, parameter, name, value);
+  blame_value(reading, node, "rows in brackets, or {file: NAME.csv}", "table '%s' names no file",
+              parameter->name);
+  return false;
 }
 
 /* One number where a curve may stand: a single row that begins with 0. */

@@ -285,6 +285,9 @@ void values_free(struct values *values)
     free(value->random);
     free(value->number);
     expression_free(value->expression);
+    for (size_t k = 0; k < value->copies; k++)
+      expression_free(value->each[k]);
+    free(value->each);
     values_free(value->group);
   }
   free(values->value);

@@ -250,7 +250,7 @@ struct gamut_host {
   size_t (*chunk)(const struct gamut_run *); /* points a chunk, a multiple of GAMUT_LANES */
 
   /* Exact volume of the body's shape in a space of so many axes (per unit of those it lacks), or of
-   * the shape revolved about y. 0 where the body has no shape. */
+   * the shape revolved about y. 0 where there is no shape or no formula for it. */
   double (*body_volume)(const struct gamut_body *, unsigned dimension, bool revolved);
 
   /* A law of the body's material ("strength" or "eos") with arrays for `count` points. For solvers
@@ -285,6 +285,9 @@ struct gamut_host {
    * scene with such a field is refused if the solver has not said it by the end of its start. */
   gamut_status (*law_places)(struct gamut_run *, struct gamut_law *,
                              const double *const position[3], const int64_t *id);
+  /* Points that the scene lists for the body, x y z of one after the other, and their volumes; 0
+   * and null where its shape is no list. */
+  size_t (*body_points)(const struct gamut_body *, const double **place, const double **volume);
 };
 
 /* Every run begins with its host; the rest is the core's. */

@@ -1,6 +1,6 @@
 /* The points of the bodies. A body's points lie on a lattice of its own: the number of points along
  * an axis is that of points per cell, rounded so that the lattice fits the body's bounds exactly; a
- * place of the lattice inside the shape is a point. */
+ * place of the lattice inside the shape is a point. A scene may list the points of a body instead. */
 #include <math.h>
 
 #include "model.h"
@@ -55,6 +55,35 @@ static gamut_status check_place(const struct model *m, const struct gamut_values
   return GAMUT_OK;
 }
 
+/* Points that the scene lists; null and 0 where it does not. */
+static size_t listed(const struct model *m, const struct body *b, const double **place,
+                     const double **volume)
+{
+  const struct gamut_host *h = m->host;
+  *place = *volume = NULL;
+  if (h->size < offsetof(struct gamut_host, body_points) + sizeof h->body_points ||
+      h->body_points == NULL)
+    return 0;
+  return h->body_points(b->scene, place, volume);
+}
+
+/* A lattice as measures see it: of the bounds and the first point's distance from them. */
+static gamut_status lay_listed(struct model *m, struct body *b, const double *place,
+                               const double lower[3], const double upper[3])
+{
+  for (unsigned k = 0; k < 3; k++) {
+    double half = HUGE_VAL;
+    for (size_t i = 0; i < b->points; i++)
+      half = fmin(half, place[3 * i + k] - lower[k]);
+    const double length = k < m->dimension ? upper[k] - lower[k] : 0.0;
+    b->lower[k] = k < m->dimension ? lower[k] : 0.0;
+    b->count[k] = length > 0.0 && half > 0.0 ? (long)fmax(round(0.5 * length / half), 1.0) : 1;
+    b->spacing[k] = length / (double)b->count[k];
+  }
+  b->density = m->host->body_density(m->run, b->scene);
+  return gamut_points(m->run, b->scene, b->points, &b->set);
+}
+
 static gamut_status lay_lattice(struct model *m, const struct gamut_values *values, struct body *b)
 {
   const char *name = m->host->body_name(b->scene);
@@ -77,6 +106,10 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
   const gamut_status status = check_place(m, values, name, lower, upper);
   if (status != GAMUT_OK)
     return status;
+  const double *place, *volume;
+  b->points = listed(m, b, &place, &volume);
+  if (b->points > 0)
+    return lay_listed(m, b, place, lower, upper);
   double places = 1.0;
   for (unsigned k = 0; k < 3; k++) {
     b->lower[k] = k < m->dimension ? lower[k] : 0.0;
@@ -166,40 +199,72 @@ static double volume_correction(const struct model *m, const struct body *b, dou
       h->body_volume == NULL)
     return 1.0;
   const double exact = h->body_volume(b->scene, m->dimension, m->geometry == GEOMETRY_AXISYMMETRIC);
+  if (!(exact > 0.0))
+    h->note(m->run,
+            "body '%s': there is no formula for the volume of its shape; that of its points, %.6g, "
+            "is taken",
+            h->body_name(b->scene), volume);
   return exact > 0.0 ? exact / volume : 1.0;
+}
+
+/* One point in its slot, with its volume for a mass. */
+static gamut_status fill_point(struct model *m, const struct body *b, const double place[3],
+                               size_t slot, double volume)
+{
+  double speed[3] = {0.0, 0.0, 0.0};
+  const gamut_status status = check_planes(m, b, place);
+  if (status != GAMUT_OK)
+    return status;
+  m->host->body_velocity(b->scene, place, speed);
+  for (unsigned k = 0; k < 3; k++) {
+    const double v = k < m->dimension ? speed[k] : 0.0;
+    m->host->stored(b->set, m->field.position, k)[slot] = place[k];
+    m->host->stored(b->set, m->field.velocity, k)[slot] = v;
+    m->nodes.speed = fmax(m->nodes.speed, fabs(v));
+  }
+  m->host->stored(b->set, m->field.mass, 0)[slot] = volume;
+  return GAMUT_OK;
+}
+
+static gamut_status fill_listed(struct model *m, const struct body *b, const double *place,
+                                const double *volume)
+{
+  gamut_status status = GAMUT_OK;
+  for (size_t i = 0; i < b->points && status == GAMUT_OK; i++)
+    status = fill_point(m, b, &place[3 * i], i, volume[i]);
+  return status;
+}
+
+static gamut_status fill_lattice(struct model *m, const struct body *b)
+{
+  long at[3] = {0, 0, 0};
+  size_t slot = 0;
+  do {
+    double place[3];
+    lattice_place(b, m->dimension, at, place);
+    if (!m->host->body_contains(b->scene, place))
+      continue;
+    const gamut_status status = fill_point(m, b, place, slot++, place_volume(m, b, place));
+    if (status != GAMUT_OK)
+      return status;
+  } while (lattice_next(b, at));
+  return GAMUT_OK;
 }
 
 static gamut_status fill_body(struct model *m, struct body *b)
 {
   const struct gamut_host *h = m->host;
-  double *x[3], *v[3], *mass = h->stored(b->set, m->field.mass, 0);
-  double *reference = h->stored(b->set, m->field.reference_volume, 0);
-  for (unsigned k = 0; k < 3; k++) {
-    x[k] = h->stored(b->set, m->field.position, k);
-    v[k] = h->stored(b->set, m->field.velocity, k);
-  }
-  long at[3] = {0, 0, 0};
-  size_t slot = 0;
-  double volume = 0.0;
-  do {
-    double place[3], speed[3] = {0.0, 0.0, 0.0};
-    lattice_place(b, m->dimension, at, place);
-    if (!h->body_contains(b->scene, place))
-      continue;
-    const gamut_status status = check_planes(m, b, place);
-    if (status != GAMUT_OK)
-      return status;
-    h->body_velocity(b->scene, place, speed);
-    for (unsigned k = 0; k < 3; k++) {
-      x[k][slot] = place[k];
-      v[k][slot] = k < m->dimension ? speed[k] : 0.0;
-      m->nodes.speed = fmax(m->nodes.speed, fabs(v[k][slot]));
-    }
-    mass[slot] = place_volume(m, b, place);
-    volume += mass[slot++];
-  } while (lattice_next(b, at));
-  const double correction = volume_correction(m, b, volume);
-  for (size_t i = 0; i < slot; i++) {
+  double *mass = h->stored(b->set, m->field.mass, 0);
+  double *reference = h->stored(b->set, m->field.reference_volume, 0), whole = 0.0;
+  const double *place, *volume;
+  const bool given = listed(m, b, &place, &volume) > 0;
+  const gamut_status status = given ? fill_listed(m, b, place, volume) : fill_lattice(m, b);
+  if (status != GAMUT_OK)
+    return status;
+  for (size_t i = 0; i < b->points; i++)
+    whole += mass[i];
+  const double correction = given ? 1.0 : volume_correction(m, b, whole);
+  for (size_t i = 0; i < b->points; i++) {
     if (reference != NULL)
       reference[i] = mass[i] * correction;
     mass[i] *= correction * b->density;
