@@ -1,5 +1,6 @@
-/* The bar's own matrices: weights, the tangent stiffness of every load step, forces as the gradient of
- * the energy. Looks into the plugin's struct; calls nothing of it but the product with the kernel. */
+/* The bar's own matrices: weights, the tangent stiffness of every load step, forces as the gradient
+ * of the energy. Looks into the plugin's struct; calls nothing of it but the product with the
+ * kernel. */
 #include <gsl/gsl_eigen.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,8 +80,8 @@ static void check_weights(const struct bar *bar, const char *name)
   }
   tap_ok(sums <= 1e-12, "%s: sums of the weights less 1: %.2g (allowed 1e-12)", name, sums);
   tap_ok(balance <= 1e-15, "%s: V_p w_pq - V_q w_qp over V_p: %.2g (allowed 1e-15)", name, balance);
-  tap_ok(one_sided == 0 && own == 0.0, "%s: pairs that differ from their mirror image: %zu (allowed 0)",
-         name, one_sided);
+  tap_ok(one_sided == 0 && own == 0.0,
+         "%s: pairs that differ from their mirror image: %zu (allowed 0)", name, one_sided);
 }
 
 /* V (E - E w C w E) between bonds, then to nodes by differences over lengths. */
@@ -140,7 +141,8 @@ static void look_at_stiffness(struct worst *worst)
   gsl_matrix_free(matrix);
 }
 
-/* ---- energy ------------------------------------------------------------------------------------- */
+/* ---- energy -------------------------------------------------------------------------------------
+ */
 
 /* s + E~ K (s / sy)^n = T by bisection; plastic strain in *plastic. */
 static double curve_stress(const struct bar *bar, size_t p, double T, double *plastic)
@@ -185,11 +187,14 @@ static void check_gradient(const struct bar *bar)
     double stress = (above - below) / (2.0 * step * bar->volume[i]);
     worst = fmax(worst, fabs(stress / bar->stress[i] - 1.0));
   }
-  tap_ok(worst <= 1e-5, "stress of the bonds as the gradient of the energy, relative: %.2g (allowed "
-         "1e-05)", worst);
+  tap_ok(worst <= 1e-5,
+         "stress of the bonds as the gradient of the energy, relative: %.2g (allowed "
+         "1e-05)",
+         worst);
 }
 
-/* ---- stages -------------------------------------------------------------------------------------- */
+/* ---- stages
+ * -------------------------------------------------------------------------------------- */
 
 static bool stage_open(struct stage *stage, const char *text, uint64_t realisation)
 {
@@ -201,8 +206,7 @@ static bool stage_open(struct stage *stage, const char *text, uint64_t realisati
   bool good = opened >= 0 && write(opened, text, strlen(text)) == (ssize_t)strlen(text);
   if (opened >= 0)
     close(opened);
-  good = good &&
-         registry_new(&options, stage->units, stage->trace, &stage->registry) == GAMUT_OK &&
+  good = good && registry_new(&options, stage->units, stage->trace, &stage->registry) == GAMUT_OK &&
          scene_read(file, NULL, 0, stage->registry, stage->units, stage->trace, &stage->scene) ==
              GAMUT_OK &&
          run_new(stage->scene, stage->registry, &how, stage->trace, &stage->run) == GAMUT_OK &&
@@ -251,8 +255,10 @@ static void check_realisation(uint64_t realisation)
            worst.row_sum);
     tap_ok(worst.rigid <= 1e-13, "%s: eigenvalue of the rigid mode: %.2g (allowed 1e-13)", name,
            worst.rigid);
-    tap_ok(worst.least >= 1e-9, "%s: least other eigenvalue over the largest entry: %.2g (at least "
-           "1e-09)", name, worst.least);
+    tap_ok(worst.least >= 1e-9,
+           "%s: least other eigenvalue over the largest entry: %.2g (at least "
+           "1e-09)",
+           name, worst.least);
   }
   stage_close(&stage);
 }

@@ -1,12 +1,12 @@
-"""The deformation-gamut bar against Ramberg and Osgood's curve, closed forms of loops, and numbers of
-an independent program."""
+"""The deformation-gamut bar against Ramberg and Osgood's curve and numbers of an independent
+program."""
 import scenes
 import numpy
 from gamut_bar_scenes import CARD, OFFSET, REFERENCE, STRESS_STRAIN, curve, frame, strain_at, \
     uneven_table, wavy_table, write_scene
 
 
-# ---- the same material everywhere ------------------------------------------------------------------
+# ---- the same material everywhere ---------------------------------------------------------------
 
 def uniform_bars():
     for material, card in CARD.items():
@@ -97,7 +97,7 @@ def weights():
                       [f"{sum(state != 2)} did not"])
 
 
-# ---- a bar that is uneven in everything -------------------------------------------------------------
+# ---- a bar that is uneven in everything ---------------------------------------------------------
 
 def uneven_bar():
     for material in CARD:
@@ -123,11 +123,11 @@ def uneven_bar():
                      "relative", worst, 1e-7)
 
 
-# ---- other ways to cut the bar ----------------------------------------------------------------------
+# ---- other ways to cut the bar ------------------------------------------------------------------
 
 def numbers_of_bonds():
-    """With Eq. 31 the length of interaction itself shrinks with the logarithm of the number of bonds;
-    a bar that varies along its length then feels it. With a given length it does not."""
+    """With Eq. 31 the length of interaction itself shrinks with the logarithm of the number of
+    bonds; a bar that varies along its length then feels it. With a given length it does not."""
     at = numpy.linspace(0.001, 0.099, 400)
     for name, extra, allowed in (("given length of interaction", "weight_deviation: 8 mm", 1e-3),
                                  ("length of Eq. 31", "pair_exponent: 6", 1e-2)):
@@ -142,7 +142,7 @@ def numbers_of_bonds():
     for bonds in (50, 5000):
         path = write_scene(f"even-{bonds}", f"bonds: {bonds}, grid: random", STRESS_STRAIN)
         strain, stress = curve(scenes.run(path))
-        scenes.below(f"{bonds} bonds on a random grid: difference from Ramberg and Osgood in strain",
+        scenes.below(f"{bonds} bonds on a random grid: difference from Ramberg and Osgood, strain",
                      max(abs(strain - strain_at(CARD["al7075"], stress))), 1e-9)
 
 
@@ -157,8 +157,8 @@ def operators():
         at = numpy.linspace(0.001, 0.11, 400)
         dense = numpy.interp(at, *curves["dense"])
         worst = max(abs(numpy.interp(at, *curves["interpolated"]) / dense - 1))
-        scenes.below(f"interpolated against dense operator, {name} bar of 1500 bonds: stress at the "
-                     "same strain, relative", worst, 2e-3)
+        scenes.below(f"interpolated against dense operator, {name} bar of 1500 bonds: stress at "
+                     "the same strain, relative", worst, 2e-3)
     path = write_scene("operator-uniform", "bonds: 3000, grid: random, operator: interpolated",
                        STRESS_STRAIN, material="ti64")
     strain, stress = curve(scenes.run(path))

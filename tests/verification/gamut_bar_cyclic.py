@@ -1,4 +1,5 @@
-"""Loops of the deformation-gamut bar: closed, tips on the monotonic curve, energy of the closed form."""
+"""Loops of the deformation-gamut bar: closed, tips on the monotonic curve, energy as in the closed
+form."""
 import scenes
 import numpy
 from gamut_bar_scenes import CARD, GROWTH, OFFSET, STRESS_STRAIN, curve, strain_at, uneven_table, \

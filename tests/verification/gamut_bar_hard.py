@@ -1,19 +1,19 @@
-"""The deformation-gamut bar where it is hardest: reaches below the spacing, coincident bonds, what it
-must refuse."""
+"""The deformation-gamut bar where it is hardest: reaches below the spacing, coincident bonds, what
+it must refuse."""
 import scenes
 import numpy
 from gamut_bar_scenes import CARD, STRESS_STRAIN, curve, strain_at, write_scene
 
 
 def local_limit():
-    """Weights to the next two bonds on either side. To one alone they cannot be: sums of one and action
-    equal to reaction would leave pairs of bonds."""
+    """Weights to the next two bonds on either side. To one alone they cannot be: sums of one and
+    action equal to reaction would leave pairs of bonds."""
     for material, card in CARD.items():
         path = write_scene("local-" + material, "bonds: 100, weight_deviation: 0.7 mm",
                            STRESS_STRAIN, material=material)
         strain, stress = curve(scenes.run(path))
-        scenes.below(f"{material}, two neighbours on either side: difference from Ramberg and Osgood in "
-                     "strain", max(abs(strain - strain_at(card, stress))), 1e-9)
+        scenes.below(f"{material}, two neighbours on either side: difference from Ramberg and "
+                     "Osgood in strain", max(abs(strain - strain_at(card, stress))), 1e-9)
     path = write_scene("patch", "bonds: 100, grid: random, weight_deviation: 2 mm, load: table, "
                        "load_table: [[1, 300 MPa], [2, 600 MPa]]",
                        {**STRESS_STRAIN, "deviation": "measure: strain_deviation"})

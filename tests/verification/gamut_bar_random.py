@@ -44,7 +44,8 @@ def ensembles():
 def same_bits(result):
     other = scenes.run("bar_al7075_random", {"solver.grid": "random"}, threads=1)
     scenes.report(json.dumps(other.summary["quantities"]) ==
-                  json.dumps(result.summary["quantities"]), "the same bits on one thread and on two")
+                  json.dumps(result.summary["quantities"]),
+                  "the same bits on one thread and on two")
 
 
 def less_noise():

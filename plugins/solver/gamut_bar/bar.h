@@ -11,12 +11,14 @@
 
 struct bar;
 
-/* ---- sums.c: sums in a fixed order, whatever the threads --------------------------------------- */
+/* ---- sums.c: sums in a fixed order, whatever the threads ---------------------------------------
+ */
 
 double sum_of_products(size_t count, const double *x, const double *y);
 double largest(size_t count, const double *x); /* of absolute values; NaN if one is NaN */
 
-/* ---- operator_dense.c, operator_interpolated.c: y = G x, G the symmetric pair kernel ----------- */
+/* ---- operator_dense.c, operator_interpolated.c: y = G x, G the symmetric pair kernel -----------
+ */
 
 struct pair_kernel {
   void (*apply)(const void *self, const double *x, double *y);
@@ -24,10 +26,12 @@ struct pair_kernel {
 };
 /* Rows of every bond's reach. `noise` (may be null): factor 1 + noise of pair p < q, row by row. */
 gamut_status dense_new(struct bar *, const double *noise, struct pair_kernel *);
-/* Cubic interpolation between coarse nodes: memory and work grow with the bonds, not their square. */
+/* Cubic interpolation between coarse nodes: memory and work grow with the bonds, not their square.
+ */
 gamut_status interpolated_new(struct bar *, struct pair_kernel *);
 
-/* ---- family.c: stresses of the families with Masing memory ------------------------------------- */
+/* ---- family.c: stresses of the families with Masing memory -------------------------------------
+ */
 
 enum { FAMILY_CHUNK = 512 };
 
@@ -39,11 +43,11 @@ struct family_law {
 };
 
 struct families {
-  size_t depth;          /* of the stacks */
+  size_t depth; /* of the stacks */
   struct family_law *law;
   size_t laws;
-  double *turn[3];       /* reversal points: T, s, pi; [level * bonds + bond] */
-  unsigned char *count;  /* how many each family remembers */
+  double *turn[3];      /* reversal points: T, s, pi; [level * bonds + bond] */
+  unsigned char *count; /* how many each family remembers */
   double *internal, *stress, *plastic, *direction; /* as committed */
   /* of the last evaluation */
   double *trial_stress, *trial_plastic, *trial_slope;
@@ -56,7 +60,8 @@ gamut_status families_evaluate(struct bar *, const double *internal);
 /* Remembers the last evaluation, which was at these T. */
 gamut_status families_commit(struct bar *, const double *internal);
 
-/* ---- load.c: the path of the force ------------------------------------------------------------- */
+/* ---- load.c: the path of the force -------------------------------------------------------------
+ */
 
 enum load_kind { LOAD_MONOTONIC, LOAD_CYCLIC, LOAD_TABLE };
 enum { LEVELS_MAX = 64 };
@@ -64,13 +69,13 @@ enum { LEVELS_MAX = 64 };
 struct load {
   enum load_kind kind;
   double reference, growth, strain_limit, stress_limit;
-  long rung;                  /* monotonic: of the step to come */
+  long rung;                                              /* monotonic: of the step to come */
   long levels, cycles, increments, level, leg, increment; /* cyclic */
-  double from;                /* stress at which the leg began */
-  const double *row;          /* table: step, stress */
+  double from;                                            /* stress at which the leg began */
+  const double *row;                                      /* table: step, stress */
   size_t rows;
   uint64_t step;
-  bool tip;                   /* the step under way ends at a positive tip or on a rung */
+  bool tip; /* the step under way ends at a positive tip or on a rung */
   bool ended;
 };
 
@@ -80,7 +85,8 @@ bool load_next(struct bar *, double *stress);
 /* After a step: where the path stands. */
 void load_stepped(struct bar *);
 
-/* ---- the bar ------------------------------------------------------------------------------------ */
+/* ---- the bar ------------------------------------------------------------------------------------
+ */
 
 struct level {
   double stress, strain; /* amplitudes, at the tensile tip */
@@ -104,24 +110,24 @@ struct bar {
   struct gamut_set *set;
   size_t bonds;
   int threads;
-  double span, area, density;  /* length of the bar, its mean area, of the scene */
-  double modulus;              /* Young's, nominal */
-  double yield, n, K;          /* of ramberg_osgood; n is NaN for other laws */
+  double span, area, density;            /* length of the bar, its mean area, of the scene */
+  double modulus;                        /* Young's, nominal */
+  double yield, n, K;                    /* of ramberg_osgood; n is NaN for other laws */
   double failure_stress, failure_strain; /* NaN where not known */
-  bool random;                 /* some noise is given */
-  size_t redraws, clipped;     /* random grids thrown away; noises kept within bounds */
+  bool random;                           /* some noise is given */
+  size_t redraws, clipped;               /* random grids thrown away; noises kept within bounds */
 
   /* per bond */
   double *length, *place, *section, *volume; /* place: of the midpoint */
-  double *stiffness;           /* E */
+  double *stiffness;                         /* E */
   double *mass_density;
-  double *softness;            /* R at failure */
-  double *yield_factor;        /* kappa */
-  double *limit;               /* strain at which the family breaks */
-  double *spread;              /* standard deviation of its weights, m */
-  double *scale;               /* a of the symmetric Sinkhorn scaling */
-  double *root;                /* a sqrt(V) */
-  double *softening;           /* E~ = w E */
+  double *softness;     /* R at failure */
+  double *yield_factor; /* kappa */
+  double *limit;        /* strain at which the family breaks */
+  double *spread;       /* standard deviation of its weights, m */
+  double *scale;        /* a of the symmetric Sinkhorn scaling */
+  double *root;         /* a sqrt(V) */
+  double *softening;    /* E~ = w E */
   struct pair_kernel kernel;
   const char *operator_name;
   size_t scalings;

@@ -1,6 +1,6 @@
-/* Newton's linear system in its symmetric, positive form: (1 - c H c) x = c b with H = w Q w (scaled by
- * V^1/2), c = sqrt(slope). Its eigenvalues lie between the least E_t / E and 1, whatever the number of
- * bonds. */
+/* Newton's linear system in its symmetric, positive form: (1 - c H c) x = c b with H = w Q w
+ * (scaled by V^1/2), c = sqrt(slope). Its eigenvalues lie between the least E_t / E and 1, whatever
+ * the number of bonds. */
 #include "bar.h"
 
 static void apply_stiffness(struct bar *bar, const double *x, double *y)

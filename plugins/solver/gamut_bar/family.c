@@ -1,7 +1,8 @@
 /* Families of nonlocal bonds: each follows the law's curve with Masing's memory of where it turned.
  *
- * Backbone: s + E~ pi(s) = T. A branch begins at the last point (T, s, pi) where the family turned and
- * is the backbone twice as large. It ends where it meets the branch before, which is then followed on. */
+ * Backbone: s + E~ pi(s) = T. A branch begins at the last point (T, s, pi) where the family turned
+ * and is the backbone twice as large. It ends where it meets the branch before, which is then
+ * followed on. */
 #include <string.h>
 
 #include "bar.h"
@@ -56,7 +57,8 @@ gamut_status families_new(struct bar *bar, size_t depth)
   return f->count && f->trial_count && f->below ? GAMUT_OK : GAMUT_INTERNAL;
 }
 
-/* ---- memory ------------------------------------------------------------------------------------- */
+/* ---- memory -------------------------------------------------------------------------------------
+ */
 
 /* What family i remembers at `level`, with the turn under way on top. */
 static double remembered(const struct families *f, size_t bonds, size_t i, size_t level, int what)
@@ -108,7 +110,8 @@ static bool turns(const struct families *f, size_t bonds, size_t i, double T)
   return (T - f->internal[i]) * f->direction[i] < 0.0 && fabs(f->plastic[i] - begin) > straight;
 }
 
-/* ---- the curve ---------------------------------------------------------------------------------- */
+/* ---- the curve ----------------------------------------------------------------------------------
+ */
 
 /* One chunk's work: bonds from to from + count; t and s of the curve, both positive. */
 struct curve {

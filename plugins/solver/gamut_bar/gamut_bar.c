@@ -17,11 +17,11 @@ static void destroy(void *self)
 static gamut_status take_arrays(struct bar *bar)
 {
   static const char label[] = "bonds";
-  double **array[] = {&bar->length,       &bar->place,     &bar->section,  &bar->volume,
-                      &bar->stiffness,    &bar->mass_density, &bar->softness, &bar->yield_factor,
-                      &bar->limit,        &bar->spread,    &bar->scale,    &bar->root,
-                      &bar->softening,    &bar->internal,  &bar->flow,     &bar->stress,
-                      &bar->old_stress,   &bar->strain};
+  double **array[] = {&bar->length,     &bar->place,        &bar->section,  &bar->volume,
+                      &bar->stiffness,  &bar->mass_density, &bar->softness, &bar->yield_factor,
+                      &bar->limit,      &bar->spread,       &bar->scale,    &bar->root,
+                      &bar->softening,  &bar->internal,     &bar->flow,     &bar->stress,
+                      &bar->old_stress, &bar->strain};
   for (size_t k = 0; k < sizeof array / sizeof array[0]; k++)
     if (!(*array[k] = bar_array(bar, label)))
       return GAMUT_INTERNAL;
@@ -59,7 +59,8 @@ static gamut_status read_material(struct bar *bar)
   return GAMUT_OK;
 }
 
-/* Turns that a family must remember at once: those of the load within itself, and a few of its own. */
+/* Turns that a family must remember at once: those of the load within itself, and a few of its own.
+ */
 static size_t memory_depth(const struct bar *bar)
 {
   enum { SPARE = 4, MOST = 64 };
@@ -128,7 +129,9 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   struct bar *bar = gamut_allocate(run, "bonds", sizeof *bar);
   if (!bar)
     return GAMUT_INTERNAL;
-  *bar = (struct bar){.run = run, .values = values, .threads = gamut_threads(run),
+  *bar = (struct bar){.run = run,
+                      .values = values,
+                      .threads = gamut_threads(run),
                       .bonds = (size_t)gamut_integer(values, "bonds")};
   gamut_status status = read_body(bar);
   if (status == GAMUT_OK)
@@ -156,8 +159,7 @@ static gamut_status arrange(struct bar *bar)
     return GAMUT_INTERNAL;
   for (size_t i = 0; i < slots; i++)
     source[i] = i < bar->bonds ? (uint32_t)i : padding | (uint32_t)(bar->bonds - 1);
-  gamut_status status =
-      GAMUT_HOST(bar->run)->arrange(bar->run, bar->set, source, slots, first, 1);
+  gamut_status status = GAMUT_HOST(bar->run)->arrange(bar->run, bar->set, source, slots, first, 1);
   gamut_release(bar->run, source);
   return status;
 }

@@ -1,4 +1,5 @@
-/* Local and nonlocal deformation-gamuts (Eqs. 2 and 3, in the energy of docs/theory/gamut_bar.md). */
+/* Local and nonlocal deformation-gamuts (Eqs. 2 and 3, in the energy of docs/theory/gamut_bar.md).
+ */
 #include "bar.h"
 
 /* R(e) E~ e^2 / 2 on Ramberg and Osgood's curve, without cancellation. */
@@ -19,8 +20,8 @@ double nonlocal_gamut(const struct bar *bar, size_t i)
     double s_to = last ? f->stress[i] : f->turn[1][at];
     double plastic_to = last ? f->plastic[i] : f->turn[2][at];
     double size = k ? 2.0 : 1.0;
-    energy += plastic * (T_to - T) + size * size * on_curve(bar, i, (s_to - s) / size,
-                                                            (plastic_to - plastic) / size);
+    energy += plastic * (T_to - T) +
+              size * size * on_curve(bar, i, (s_to - s) / size, (plastic_to - plastic) / size);
     T = T_to;
     s = s_to;
     plastic = plastic_to;

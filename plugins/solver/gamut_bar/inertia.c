@@ -1,7 +1,8 @@
 /* Backward Euler in the forces of the bonds: no displacements, so nothing cancels.
  *
- * l (eps - 2 eps_old + eps_older) / dt^2 = a_right - a_left, node accelerations from the forces beside
- * them. With eps = f / (A E) + w pi this is a symmetric tridiagonal system for the forces f. */
+ * l (eps - 2 eps_old + eps_older) / dt^2 = a_right - a_left, node accelerations from the forces
+ * beside them. With eps = f / (A E) + w pi this is a symmetric tridiagonal system for the forces f.
+ */
 #include <string.h>
 
 #include "bar.h"
@@ -57,8 +58,7 @@ void inertia_begin(struct bar *bar, double force)
   double square = bar->time_step * bar->time_step;
   size_t n = bar->bonds;
   for (size_t i = 0; i < n; i++)
-    bar->right[i] =
-        bar->length[i] * (2.0 * bar->old_strain[i] - bar->older_strain[i]) / square;
+    bar->right[i] = bar->length[i] * (2.0 * bar->old_strain[i] - bar->older_strain[i]) / square;
   bar->right[0] += force / bar->node_mass[0];
   bar->right[n - 1] += force / bar->node_mass[n];
 }

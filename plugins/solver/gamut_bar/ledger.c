@@ -11,13 +11,13 @@ gamut_status ledger_new(struct bar *bar)
   gamut_status status =
       host->ledger(bar->run, account, "elastic", unit, GAMUT_STORED, &bar->stored);
   if (status == GAMUT_OK)
-    status = host->ledger(bar->run, account, "work of the ends", unit, GAMUT_SUPPLIED,
-                          &bar->supplied);
+    status =
+        host->ledger(bar->run, account, "work of the ends", unit, GAMUT_SUPPLIED, &bar->supplied);
   if (status == GAMUT_OK)
     status = host->ledger(bar->run, account, "plastic work", unit, GAMUT_LOST, &bar->lost);
   if (status == GAMUT_OK && bar->dynamic)
-    status = host->ledger(bar->run, account, "inertia and its damping", unit, GAMUT_LOST,
-                          &bar->damped);
+    status =
+        host->ledger(bar->run, account, "inertia and its damping", unit, GAMUT_LOST, &bar->damped);
   return status;
 }
 
@@ -37,8 +37,7 @@ static double plastic_work(struct bar *bar)
     mean[i] = 0.5 * (bar->stress[i] + bar->old_stress[i]);
   weights_apply(bar, mean, shared, bar->work[7]);
   for (size_t i = 0; i < bar->bonds; i++)
-    sum += bar->volume[i] * shared[i] *
-           (bar->families.trial_plastic[i] - bar->families.plastic[i]);
+    sum += bar->volume[i] * shared[i] * (bar->families.trial_plastic[i] - bar->families.plastic[i]);
   return sum;
 }
 

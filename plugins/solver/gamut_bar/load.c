@@ -71,7 +71,8 @@ gamut_status load_new(struct bar *bar)
   return load->kind == LOAD_TABLE ? table(bar) : monotonic(bar);
 }
 
-/* ---- where to next ------------------------------------------------------------------------------ */
+/* ---- where to next ------------------------------------------------------------------------------
+ */
 
 static double next_rung(struct load *load)
 {
@@ -79,8 +80,8 @@ static double next_rung(struct load *load)
   return load->reference * pow(load->growth, (double)load->rung);
 }
 
-/* Leg 0 goes up to the level, then legs go down and up; steps are small where the curve is flat, near
- * the tips. */
+/* Leg 0 goes up to the level, then legs go down and up; steps are small where the curve is flat,
+ * near the tips. */
 static double next_of_leg(struct bar *bar)
 {
   static const double pi = 3.14159265358979323846;
@@ -122,7 +123,8 @@ bool load_next(struct bar *bar, double *stress)
   return true;
 }
 
-/* ---- after a step ------------------------------------------------------------------------------- */
+/* ---- after a step -------------------------------------------------------------------------------
+ */
 
 static void keep_level(struct bar *bar, long level)
 {
@@ -170,7 +172,6 @@ void load_stepped(struct bar *bar)
     load->ended = (double)load->step >= load->row[2 * load->rows - 2];
   if (load->kind == LOAD_MONOTONIC) {
     keep_level(bar, load->rung++);
-    load->ended = bar->mean_strain > load->strain_limit ||
-                  bar->nominal_stress > load->stress_limit;
+    load->ended = bar->mean_strain > load->strain_limit || bar->nominal_stress > load->stress_limit;
   }
 }

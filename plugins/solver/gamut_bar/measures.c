@@ -3,14 +3,15 @@
 
 #include "bar.h"
 
-/* ---- fit of the hardening law ------------------------------------------------------------------- */
+/* ---- fit of the hardening law -------------------------------------------------------------------
+ */
 
 struct fit {
   double n, K;
 };
 
-/* Straight line through log(stress) over log(plastic strain) at the first levels. NaN where they were
- * not reached. */
+/* Straight line through log(stress) over log(plastic strain) at the first levels. NaN where they
+ * were not reached. */
 static struct fit fit_levels(const struct bar *bar, bool truly, size_t count, double modulus)
 {
   double x[LEVELS_MAX], y[LEVELS_MAX], mean_x = 0.0, mean_y = 0.0, above = 0.0, below = 0.0;
@@ -50,7 +51,8 @@ static double hardening(const struct bar *bar, const char *name, const struct ga
   return name[0] == 'n' ? fit.n : fit.K;
 }
 
-/* ---- the rest ----------------------------------------------------------------------------------- */
+/* ---- the rest -----------------------------------------------------------------------------------
+ */
 
 static double strain_measure(const struct bar *bar)
 {

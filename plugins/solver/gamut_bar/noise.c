@@ -50,8 +50,8 @@ gamut_status noise_of_pairs(struct bar *bar, double **value, bool *given)
     return GAMUT_INTERNAL;
   const double *const position[3] = {place, place + pairs, place + pairs};
   number_pairs(pairs, place, id);
-  gamut_status status = host->sample(bar->run, bar->values, "noise.weights", "weights", pairs, position, id,
-                        *value, given);
+  gamut_status status = host->sample(bar->run, bar->values, "noise.weights", "weights", pairs,
+                                     position, id, *value, given);
   gamut_release(bar->run, place);
   gamut_release(bar->run, id);
   bar->random = true;

@@ -7,8 +7,8 @@ static const double reach = 3.0;
 struct dense {
   size_t bonds;
   int threads;
-  size_t *begin;           /* bonds + 1: where rows begin in `entry` */
-  uint32_t *first;         /* bond of a row's first entry */
+  size_t *begin;   /* bonds + 1: where rows begin in `entry` */
+  uint32_t *first; /* bond of a row's first entry */
   double *entry;
 };
 

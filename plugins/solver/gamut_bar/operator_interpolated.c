@@ -10,11 +10,11 @@ struct interpolated {
   size_t bonds, cells, nodes;
   int threads;
   double spacing;
-  size_t *begin;    /* cells + 1: first bond of each cell */
-  double *part;     /* place of each bond in its cell, 0 to 1 */
+  size_t *begin; /* cells + 1: first bond of each cell */
+  double *part;  /* place of each bond in its cell, 0 to 1 */
   double *diagonal;
   double *node_kernel, *node_spread;
-  double *cell_sum; /* 4 a cell */
+  double *cell_sum;              /* 4 a cell */
   double *gathered, *spread_out; /* one a node */
 };
 
@@ -116,8 +116,8 @@ static void node_kernel(const struct interpolated *g)
   for (size_t j = 0; j < g->nodes; j++)
     for (size_t k = 0; k < g->nodes; k++) {
       double d = g->spacing * ((double)j - (double)k);
-      double v = 0.5 * (g->node_spread[j] * g->node_spread[j] +
-                        g->node_spread[k] * g->node_spread[k]);
+      double v =
+          0.5 * (g->node_spread[j] * g->node_spread[j] + g->node_spread[k] * g->node_spread[k]);
       g->node_kernel[j * g->nodes + k] = exp(-d * d / (2.0 * v)) / sqrt(two_pi * v);
     }
 }

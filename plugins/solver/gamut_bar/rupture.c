@@ -1,4 +1,5 @@
-/* States of the families: active, saturated (they take up next to no more elastic energy) and broken. */
+/* States of the families: active, saturated (they take up next to no more elastic energy) and
+ * broken. */
 #include <string.h>
 
 #include "bar.h"

@@ -14,8 +14,7 @@ static void bound(struct bar *bar, double *noise)
   }
 }
 
-static gamut_status scale_by_noise(struct bar *bar, const char *name, double nominal,
-                                   double *array)
+static gamut_status scale_by_noise(struct bar *bar, const char *name, double nominal, double *array)
 {
   double *noise = bar->work[2];
   bool given;
@@ -81,8 +80,8 @@ static gamut_status needs_curve(struct bar *bar)
 gamut_status softness_new(struct bar *bar)
 {
   double *noise = bar->work[3];
-  bool given, any = false, whole = bar->n > 0.0 && bar->failure_stress > 0.0 &&
-                                   bar->failure_strain > 0.0;
+  bool given, any = false,
+              whole = bar->n > 0.0 && bar->failure_stress > 0.0 && bar->failure_strain > 0.0;
   gamut_status status = scale_by_noise(bar, "modulus", bar->modulus, bar->stiffness);
   if (status == GAMUT_OK)
     status = scale_by_noise(bar, "density", bar->density, bar->mass_density);

@@ -4,7 +4,8 @@
 
 #include "bar.h"
 
-/* ---- standard deviations (Eq. 31) -------------------------------------------------------------- */
+/* ---- standard deviations (Eq. 31) --------------------------------------------------------------
+ */
 
 enum { BLOCK = 64 };
 
@@ -91,9 +92,12 @@ static void find_spreads(struct bar *bar)
       bar->spread[p] = gamut_real(bar->values, "weight_deviation");
     return;
   }
-  struct potential u = {.place = bar->place, .energy = bar->work[0], .least = HUGE_VAL,
+  struct potential u = {.place = bar->place,
+                        .energy = bar->work[0],
+                        .least = HUGE_VAL,
                         .exponent = gamut_real(bar->values, "pair_exponent"),
-                        .block_least = bar->work[1], .bonds = bar->bonds};
+                        .block_least = bar->work[1],
+                        .bonds = bar->bonds};
   for (size_t i = 0; i < bar->bonds; i++) {
     double energy = 0.5 * bar->softness[i] * bar->stiffness[i];
     double *block = &u.block_least[i / BLOCK];
@@ -107,7 +111,8 @@ static void find_spreads(struct bar *bar)
     bar->spread[p] = spread_of(&u, p);
 }
 
-/* ---- scaling ------------------------------------------------------------------------------------ */
+/* ---- scaling ------------------------------------------------------------------------------------
+ */
 
 /* r = a (G V a), the row sums of w. */
 static void row_sums(const struct bar *bar, double *r, double *work)
@@ -142,10 +147,11 @@ static gamut_status scale_rows(struct bar *bar)
     for (size_t i = 0; i < bar->bonds; i++)
       bar->scale[i] /= sqrt(r[i]);
   }
-  return gamut_fail(bar->run, GAMUT_NUMERICS,
-                    "no weights of sum 1 are the same both ways: sums are off by %g after %d rounds. "
-                    "The reach (3 standard deviations, %g m at bond 0) must span two bonds at least",
-                    worst, ROUNDS, 3.0 * bar->spread[0]);
+  return gamut_fail(
+      bar->run, GAMUT_NUMERICS,
+      "no weights of sum 1 are the same both ways: sums are off by %g after %d rounds. "
+      "The reach (3 standard deviations, %g m at bond 0) must span two bonds at least",
+      worst, ROUNDS, 3.0 * bar->spread[0]);
 }
 
 void weights_apply(const struct bar *bar, const double *x, double *y, double *work)
