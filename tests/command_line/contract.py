@@ -198,6 +198,30 @@ def runs(folder):
            "exit 3: a wrong --set, nothing written", bad)
 
 
+def refused_late(folder):
+    """Faults that show when a run begins: the right exit code, words, and nothing on the disk."""
+    bar = os.path.join(ROOT, "inputs", "taylor_bar.yaml")
+    for code, setting, words in (
+            (3, "effects.wall.plane.normal=[0, -1]", "behind a plane"),
+            (3, "quantities.length.axis=z", "no axis z"),
+            (3, 'bodies.bar.velocity=["1 / (x - x)", "0"]', "the velocity of body 'bar'"),
+            (3, 'bodies.bar.velocity=["", "0"]', "the formula is empty"),
+            (3, "solver.cell=0.3 um", "memory"),
+            (2, "gamut=2", "belongs to a file"),
+            (2, "include=[a.yaml]", "belongs to a file")):
+        result = os.path.join(folder, "late")
+        answer = gamut("run", bar, "-o", result, "--set", setting)
+        report(answer.code == code and words in answer.said and not os.path.exists(result),
+               f"{setting}: exit {code}, nothing written", answer)
+    answer = gamut("run", bar, "-o", result, "--threads", "100000")
+    report(answer.code == 2 and "at most" in answer.said, "too many threads: exit 2", answer)
+    answer = gamut("run", bar, "-o", result, "--set", "solver.step=1e-30 s")
+    report(answer.code == 5 and "would never end" in answer.said,
+           "a step that gets nowhere: exit 5", answer)
+    answer = gamut("check", bar, "--set", "quantities.diameter_at_0.2L.height=0.3")
+    report(answer.code == 0, "a name with a dot can be set", answer)
+
+
 def interrupted(folder):
     """A run that is told to stop ends by that signal and leaves its summary."""
     result = os.path.join(folder, "cut")
@@ -250,6 +274,7 @@ def main():
     curves_and_flags()
     with tempfile.TemporaryDirectory() as folder:
         runs(folder)
+        refused_late(folder)
         interrupted(folder)
     streams()
     verify()
