@@ -34,6 +34,15 @@ static inline double noise_at(const struct noise *noise, const struct gamut_stre
   return copysign(noise->scale * size, u) / noise->divisor;
 }
 
+/* The noise's value at the probability of the standard normal number z. */
+static inline double noise_of_normal(const struct noise *noise, double z)
+{
+  if (!noise->weibull)
+    return noise->scale * z / noise->divisor;
+  double size = pow(-log(erfc(fabs(z) / sqrt(2.0))), 1.0 / noise->shape);
+  return copysign(noise->scale * size, z) / noise->divisor;
+}
+
 /* Probability below a value. */
 static inline double noise_below(const struct noise *noise, double value)
 {

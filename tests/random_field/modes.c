@@ -327,6 +327,28 @@ static void test_projector(void)
          (long long)report.twice);
 }
 
+/* Probabilities of the noise, of what a normal number becomes, and back. */
+static void test_noise(void)
+{
+  const struct noise noise = {true, 1.5, 2.5, 4};
+  double worst = 0;
+  for (double z = -6; z <= 6; z += 0.05)
+    worst = fmax(worst, fabs(noise_below(&noise, noise_of_normal(&noise, z)) -
+                             0.5 * erfc(-z / sqrt(2.0))));
+  tap_absolute("Weibull noise: probability of what a normal number becomes", worst, 0, 1e-14);
+  const struct gamut_stream stream = stream_make(1, 0, "noise");
+  enum { DRAWS = 20000 };
+  double first = 0, second = 0;
+  for (uint64_t i = 0; i < DRAWS; i++) {
+    double u = noise_below(&noise, noise_at(&noise, &stream, i));
+    first += u / DRAWS;
+    second += u * u / DRAWS;
+  }
+  tap_absolute("Weibull noise: mean of its probabilities", first, 0.5, 5 / sqrt(12.0 * DRAWS));
+  tap_absolute("Weibull noise: mean of their squares", second, 1.0 / 3,
+               5 * sqrt(4.0 / 45 / DRAWS));
+}
+
 static void test_table(void)
 {
   double row[24][4], x[3] = {0.5, 1.25, -0.5};
@@ -369,6 +391,7 @@ int main(void)
   test_lengths();
   test_ensemble();
   test_projector();
+  test_noise();
   test_table();
   return tap_done();
 }

@@ -12,6 +12,7 @@ struct field {
   enum origin origin;
   struct expansion expansion;
   double lower[AXES], upper[AXES];
+  struct noise noise; /* distribution of the values */
   struct ensemble ensemble;
   struct table table;
   atomic_flag told; /* what a user must know is said once */
@@ -173,9 +174,11 @@ static gamut_status sample_expansion(struct field *field, const struct gamut_str
                "random_field/karhunen_loeve: %zu points for a field of %zu modes: the correlation "
                "length is near or below their spacing, which does not resolve the field",
                count, modes);
-  return expansion_sample(&field->expansion, stream, count, position, value)
-             ? GAMUT_OK
-             : gamut_fail(field->run, GAMUT_INTERNAL, "out of memory");
+  if (!expansion_sample(&field->expansion, stream, count, position, value))
+    return gamut_fail(field->run, GAMUT_INTERNAL, "out of memory");
+  for (size_t i = 0; !noise_is_standard(&field->noise) && i < count; i++)
+    value[i] = noise_of_normal(&field->noise, value[i]);
+  return GAMUT_OK;
 }
 
 /* ---- from samples ------------------------------------------------------------------------------
@@ -186,10 +189,9 @@ static gamut_status create_ensemble(struct field *field, const struct gamut_valu
   if (!gamut_given(values, "samples"))
     return gamut_fail_at(field->run, values, "samples", "a whole number, such as 30",
                          "a field from samples needs their number");
-  field->ensemble =
-      (struct ensemble){.noise = noise_read(values, gamut_text(values, "distribution")[0] == 'w'),
-                        .samples = (size_t)gamut_integer(values, "samples"),
-                        .energy = gamut_real(values, "energy")};
+  field->ensemble = (struct ensemble){.noise = field->noise,
+                                      .samples = (size_t)gamut_integer(values, "samples"),
+                                      .energy = gamut_real(values, "energy")};
   if (gamut_given(values, "points"))
     field->ensemble.points = (size_t)gamut_integer(values, "points");
   return GAMUT_OK;
@@ -257,6 +259,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   if (!field)
     return gamut_fail(run, GAMUT_INTERNAL, "out of memory");
   field->run = run;
+  field->noise = noise_read(values, gamut_text(values, "distribution")[0] == 'w');
   field->origin = (enum origin)number_of(gamut_text(values, "from"), origin, 3);
   gamut_status status = field->origin == FROM_KERNEL    ? create_expansion(field, values)
                         : field->origin == FROM_SAMPLES ? create_ensemble(field, values)
@@ -285,7 +288,8 @@ static gamut_status sample(const void *self, const struct gamut_stream *stream, 
 static double below(const void *self, double value)
 {
   const struct field *field = self;
-  return field->origin == FROM_SAMPLES ? noise_below(&field->ensemble.noise, value) : NAN;
+  bool standard = field->origin == FROM_TABLE || noise_is_standard(&field->noise);
+  return standard ? NAN : noise_below(&field->noise, value);
 }
 
 GAMUT_RANDOM_FIELD(karhunen_loeve, .create = create, .destroy = destroy, .sample = sample,
