@@ -64,7 +64,6 @@ struct point_set {
   size_t blocks_capacity;
   double **array;     /* one a component: stored array or null */
   double *spare;      /* for arrange */
-  int64_t *spare_id;
   size_t material;
 };
 /* The whole set of its public part, and the number of its material. */

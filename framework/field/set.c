@@ -17,6 +17,12 @@ size_t set_material(const struct gamut_set *set)
   return set_inside(set)->material;
 }
 
+/* Slots for so many points and the padding that blocks of a usual size need. */
+static size_t with_padding(size_t points)
+{
+  return (points + points / 32 + 2 * GAMUT_LANES - 1) / GAMUT_LANES * GAMUT_LANES;
+}
+
 struct point_set *set_new(struct arena *arena, const char *body, size_t index, size_t material,
                           size_t points)
 {
@@ -25,7 +31,7 @@ struct point_set *set_new(struct arena *arena, const char *body, size_t index, s
     return NULL;
   set->arena = arena;
   set->material = material;
-  set->capacity = (points + GAMUT_LANES - 1) / GAMUT_LANES * GAMUT_LANES;
+  set->capacity = with_padding(points);
   set->open = (struct gamut_set){.body = body, .index = index, .points = points};
   return set;
 }
@@ -39,10 +45,9 @@ static void give_arrays(struct point_set *set)
   free(set->array);
   arena_give(set->arena, set->spare);
   arena_give(set->arena, set->id);
-  arena_give(set->arena, set->spare_id);
   set->array = NULL;
   set->spare = NULL;
-  set->id = set->spare_id = NULL;
+  set->id = NULL;
 }
 
 void set_free(struct point_set *set)
@@ -64,7 +69,7 @@ static double *take_array(struct point_set *set, size_t component, const char *l
 /* Bytes of all arrays of a set: asked for before any is touched. */
 static size_t bytes_wanted(const struct point_set *set)
 {
-  size_t arrays = 3;
+  size_t arrays = 2;
   for (size_t i = 0; i < fields_count(set->fields); i++)
     if (fields_at(set->fields, i)->stored)
       arrays += fields_at(set->fields, i)->handle.components;
@@ -74,13 +79,12 @@ static size_t bytes_wanted(const struct point_set *set)
 static gamut_status take_all(struct point_set *set, struct trace *trace)
 {
   size_t components = fields_components(set->fields);
-  size_t ids = set->capacity * sizeof *set->id, spare = (set->capacity + SLACK) * sizeof(double);
+  size_t bytes = (set->capacity + SLACK) * sizeof(double);
   bool room = arena_has_room(set->arena, bytes_wanted(set));
   set->array = calloc(components ? components : 1, sizeof *set->array);
-  set->id = room ? arena_take(set->arena, "point ids", ids) : NULL;
-  set->spare_id = room ? arena_take(set->arena, "spare array for sorting", ids) : NULL;
-  set->spare = room ? arena_take(set->arena, "spare array for sorting", spare) : NULL;
-  bool good = set->array && set->id && set->spare_id && set->spare;
+  set->id = room ? arena_take(set->arena, "point ids", bytes) : NULL;
+  set->spare = room ? arena_take(set->arena, "spare array for sorting", bytes) : NULL;
+  bool good = set->array && set->id && set->spare;
   for (size_t i = 0; good && i < fields_count(set->fields); i++) {
     const struct field *field = fields_at(set->fields, i);
     for (unsigned k = 0; good && field->stored && k < field->handle.components; k++) {
@@ -118,7 +122,7 @@ gamut_status set_allocate(struct point_set *set, const struct fields *fields, st
 static gamut_status grow(struct point_set *set, size_t slots, struct trace *trace)
 {
   struct point_set old = *set;
-  set->capacity = slots + slots / 8 + GAMUT_LANES;
+  set->capacity = with_padding(slots);
   gamut_status status = take_all(set, trace);
   if (status == GAMUT_OK) {
     size_t kept = old.open.slots > old.open.points ? old.open.slots : old.open.points;
@@ -141,6 +145,16 @@ static void permute(struct point_set *set, size_t component, const uint32_t *sou
   double *was = set->array[component];
   set->array[component] = to;
   set->spare = was - STAGGER * (component % STAGGERS);
+}
+
+/* The ids go through the same spare piece, which is as long and as wide. */
+static void permute_ids(struct point_set *set, const uint32_t *source, size_t slots)
+{
+  int64_t *to = (int64_t *)(void *)set->spare;
+  for (size_t i = 0; i < slots; i++)
+    to[i] = source[i] & PADDING ? -1 : set->id[source[i]];
+  set->spare = (double *)(void *)set->id;
+  set->id = to;
 }
 
 static gamut_status keep_blocks(struct point_set *set, const size_t *first, size_t blocks,
@@ -168,11 +182,7 @@ gamut_status set_arrange(struct point_set *set, const uint32_t *source, size_t s
   for (size_t k = 0; k < fields_components(set->fields); k++)
     if (set->array[k])
       permute(set, k, source, slots);
-  for (size_t i = 0; i < slots; i++)
-    set->spare_id[i] = source[i] & PADDING ? -1 : set->id[source[i]];
-  int64_t *was = set->id;
-  set->id = set->spare_id;
-  set->spare_id = was;
+  permute_ids(set, source, slots);
   const struct field *mass = fields_find(set->fields, "mass");
   if (mass && mass->stored)
     for (size_t i = 0; i < slots; i++)

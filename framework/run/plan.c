@@ -42,7 +42,7 @@ static bool forecast(struct gamut_run *run, struct forecast *f)
   return true;
 }
 
-/* Bytes a point that the declarations demand: stored components, the id, the spares for sorting. */
+/* Bytes a point that the declarations demand: stored components, the id, the spare for sorting. */
 static size_t declared_bytes(const struct gamut_run *run, size_t *stored)
 {
   *stored = 0;
@@ -50,7 +50,7 @@ static size_t declared_bytes(const struct gamut_run *run, size_t *stored)
     const struct field *field = fields_at(run->fields, f);
     *stored += field->stored ? field->handle.components : 0;
   }
-  return *stored * sizeof(double) + 2 * sizeof(int64_t) + sizeof(double);
+  return *stored * sizeof(double) + sizeof(int64_t) + sizeof(double);
 }
 
 static const char *extent_text(enum gamut_extent extent)

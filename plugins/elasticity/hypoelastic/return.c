@@ -92,27 +92,47 @@ static void newton(const struct hypoelastic *b)
 /* Where Newton's step left the bracket: the excess taken up by an increment, 3 G d + y(d) - y(0),
  * is near a power of d, exactly so for plastic strain 0 and y = A + B d^n. If that fails,
  * bisection. */
-static void rescue(const struct hypoelastic *b, double bisect)
+GAMUT_INLINE void rescue_point(const struct hypoelastic *b, size_t i, double bisect)
 {
   const struct gamut_strength_law *law = b->strength;
-  GAMUT_EACH (i, b) {
-    double d = b->scratch[INCREMENT][i], dt = b->time_step[i];
-    double lower = b->scratch[LOWER][i], upper = b->scratch[UPPER][i];
-    double stiffness = 3.0 * b->shear_modulus[i], excess = b->scratch[EXCESS][i];
-    double taken = excess - (b->scratch[TRIAL_SIZE][i] - stiffness * d - law->flow_stress[i]);
-    double by_rate = law->flow_stress_slope_plastic_strain_rate[i];
-    double slope =
-        stiffness + law->flow_stress_slope_plastic_strain[i] + (dt > 0.0 ? by_rate / dt : 0.0);
-    double exponent = taken / (d * slope);
-    double ratio = excess / taken;
-    ratio = ratio > 0.0 ? ratio : 1.0;
-    double next = d * gamut_exp(exponent * gamut_log(ratio));
-    double least = 1e-6 * upper, middle = sqrt((lower > least ? lower : least) * upper);
-    next = bisect > 0.0 ? middle : next;
-    next = next > lower ? next : middle;
-    next = next < upper ? next : middle;
-    double outside = b->scratch[OUTSIDE][i];
-    b->scratch[INCREMENT][i] = outside > 0.0 ? next : d;
+  double d = b->scratch[INCREMENT][i], dt = b->time_step[i];
+  double lower = b->scratch[LOWER][i], upper = b->scratch[UPPER][i];
+  double stiffness = 3.0 * b->shear_modulus[i], excess = b->scratch[EXCESS][i];
+  double taken = excess - (b->scratch[TRIAL_SIZE][i] - stiffness * d - law->flow_stress[i]);
+  double by_rate = law->flow_stress_slope_plastic_strain_rate[i];
+  double slope =
+      stiffness + law->flow_stress_slope_plastic_strain[i] + (dt > 0.0 ? by_rate / dt : 0.0);
+  double exponent = taken / (d * slope);
+  double ratio = excess / taken;
+  ratio = ratio > 0.0 ? ratio : 1.0;
+  double next = d * gamut_exp(exponent * gamut_log(ratio));
+  double least = 1e-6 * upper, middle = sqrt((lower > least ? lower : least) * upper);
+  next = bisect > 0.0 ? middle : next;
+  next = next > lower ? next : middle;
+  next = next < upper ? next : middle;
+  double outside = b->scratch[OUTSIDE][i];
+  b->scratch[INCREMENT][i] = outside > 0.0 ? next : d;
+}
+
+/* Few points need it: whole vectors without one are passed over. */
+static void rescue(const struct hypoelastic *b, double bisect)
+{
+  for (size_t from = 0; from < b->count; from += GAMUT_LANES) {
+    const double *outside = b->scratch[OUTSIDE] + from;
+    const size_t count = b->count - from < GAMUT_LANES ? b->count - from : GAMUT_LANES;
+    double most = 0.0;
+    for (size_t l = 0; l < count; l++)
+      most = outside[l] > most ? outside[l] : most;
+    if (most == 0.0)
+      continue;
+    if (count < GAMUT_LANES) {
+      for (size_t l = 0; l < count; l++)
+        rescue_point(b, from + l, bisect);
+      continue;
+    }
+#pragma omp simd
+    for (size_t l = 0; l < GAMUT_LANES; l++)
+      rescue_point(b, from + l, bisect);
   }
 }
 

@@ -109,7 +109,7 @@ static gamut_status room(struct model *m, void **array, size_t item, size_t used
 {
   if (used < *capacity)
     return GAMUT_OK;
-  const size_t wanted = 2 * used + 64;
+  const size_t wanted = used + used / 4 + 64;
   void *larger = gamut_allocate(m->run, "planes", wanted * item);
   if (larger == NULL)
     return GAMUT_INTERNAL;
@@ -232,7 +232,7 @@ gamut_status planes_find(struct model *m)
     return GAMUT_OK;
   if (lines > ps->of_line_capacity) {
     gamut_release(m->run, ps->of_line);
-    ps->of_line_capacity = lines + lines / 2;
+    ps->of_line_capacity = lines + lines / 8;
     ps->of_line = gamut_allocate(m->run, "planes", ps->of_line_capacity * sizeof *ps->of_line);
     if (ps->of_line == NULL)
       return GAMUT_INTERNAL;

@@ -125,13 +125,13 @@ void grid_destroy(struct grid *g)
   gamut_release(g->run, g->spare_line);
   places_free(g->run, g->spare_table);
   gamut_release(g->run, g->source);
-  gamut_release(g->run, g->box);
+  boxes_destroy(g);
 }
 
 /* Makes room for `wanted` blocks of nodes, keeping those there are. */
 static gamut_status grow(struct grid *g, size_t wanted)
 {
-  const size_t capacity = wanted + wanted / 2 + 32;
+  const size_t capacity = wanted + wanted / 8 + 32;
   size_t size = 64;
   while (size < 2 * capacity)
     size *= 2;
@@ -237,15 +237,14 @@ gamut_status grid_finish(struct grid *g)
 gamut_status grid_sources(struct grid *g, size_t sources)
 {
   g->sources = sources;
+  if (g->box_capacity == 0 && boxes_create(g) != GAMUT_OK)
+    return GAMUT_INTERNAL;
   if (sources <= g->source_capacity)
     return GAMUT_OK;
   const size_t capacity = sources + sources / 4 + 4;
   gamut_release(g->run, g->source);
-  gamut_release(g->run, g->box);
   g->source = gamut_allocate(g->run, "grid", capacity * sizeof *g->source);
-  g->box =
-      gamut_allocate(g->run, "boxes of blocks", capacity * g->tile_nodes * LINE * sizeof *g->box);
-  g->source_capacity = g->source != NULL && g->box != NULL ? capacity : 0;
+  g->source_capacity = g->source != NULL ? capacity : 0;
   return g->source_capacity == 0 ? GAMUT_INTERNAL : GAMUT_OK;
 }
 
@@ -254,6 +253,7 @@ void grid_source(struct grid *g, size_t index, int32_t block)
   struct source *s = &g->source[index];
   s->block = block;
   s->next = -1;
+  s->box = NULL;
   for (unsigned k = 0; k < 3; k++) {
     s->lower[k] = 0;
     s->upper[k] = k < g->dimension ? g->tile : 1;
@@ -282,104 +282,5 @@ void grid_node(const struct grid *g, const struct node_block *b, size_t index, i
   for (unsigned k = 0; k < 3; k++) {
     node[k] = k < g->dimension ? b->at[k] * g->side + (int32_t)(index % (size_t)g->side) : 0;
     index /= (size_t)g->side;
-  }
-}
-
-/* What of a source's box lies in the block of nodes that is neighbour o of the source's own. */
-struct overlap {
-  int lower[3], upper[3]; /* in nodes of the tile */
-  int offset[3];          /* the tile's node that is the block's node 0 */
-};
-
-static bool overlap_of(const struct grid *g, const struct source *s, unsigned o, struct overlap *v)
-{
-  for (unsigned k = 0; k < 3; k++) {
-    const bool real = k < g->dimension;
-    const int step = real ? (int)(o % 3) - 1 : 0;
-    o /= 3;
-    v->offset[k] = real ? 1 + g->side * step : 0;
-    const int end = v->offset[k] + (real ? g->side : 1);
-    v->lower[k] = s->lower[k] > v->offset[k] ? s->lower[k] : v->offset[k];
-    v->upper[k] = s->upper[k] < end ? s->upper[k] : end;
-    if (v->lower[k] >= v->upper[k])
-      return false;
-  }
-  return true;
-}
-
-static size_t block_row(const struct grid *g, const struct overlap *v, int y, int z)
-{
-  const int i = v->lower[0] - v->offset[0];
-  return (size_t)(i + g->side * ((y - v->offset[1]) + g->side * (z - v->offset[2])));
-}
-
-static size_t tile_row(const struct grid *g, int x, int y, int z)
-{
-  return (size_t)(x + g->tile * (y + g->tile * z));
-}
-
-static size_t box_row(const struct source *s, int x, int y, int z)
-{
-  const int nx = s->upper[0] - s->lower[0], ny = s->upper[1] - s->lower[1];
-  return (size_t)((x - s->lower[0]) + nx * ((y - s->lower[1]) + ny * (z - s->lower[2])));
-}
-
-void grid_load(const struct grid *g, const struct source *s, double *tile)
-{
-  const struct node_block *b = &g->block[s->block];
-  for (unsigned o = 0; o < g->neighbours; o++) {
-    struct overlap v;
-    if (!overlap_of(g, s, o, &v))
-      continue;
-    const double *line = g->line + (size_t)b->neighbour[o] * g->block_nodes * LINE;
-    const size_t bytes = (size_t)(v.upper[0] - v.lower[0]) * LINE * sizeof *line;
-    for (int z = v.lower[2]; z < v.upper[2]; z++)
-      for (int y = v.lower[1]; y < v.upper[1]; y++)
-        memcpy(tile + LINE * tile_row(g, v.lower[0], y, z), line + LINE * block_row(g, &v, y, z),
-               bytes);
-  }
-}
-
-void grid_leave(struct grid *g, size_t source, double *tile)
-{
-  const struct source *s = &g->source[source];
-  double *box = g->box + source * g->tile_nodes * LINE;
-  const size_t bytes = (size_t)(s->upper[0] - s->lower[0]) * LINE * sizeof *box;
-  for (int z = s->lower[2]; z < s->upper[2]; z++)
-    for (int y = s->lower[1]; y < s->upper[1]; y++) {
-      double *row = tile + LINE * tile_row(g, s->lower[0], y, z);
-      memcpy(box + LINE * box_row(s, s->lower[0], y, z), row, bytes);
-      memset(row, 0, bytes);
-    }
-}
-
-static void add_box(const struct grid *g, size_t index, unsigned o, double *lines)
-{
-  const struct source *s = &g->source[index];
-  struct overlap v;
-  if (!overlap_of(g, s, o, &v))
-    return;
-  const double *box = g->box + index * g->tile_nodes * LINE;
-  const size_t doubles = (size_t)(v.upper[0] - v.lower[0]) * LINE;
-  for (int z = v.lower[2]; z < v.upper[2]; z++)
-    for (int y = v.lower[1]; y < v.upper[1]; y++) {
-      const double *restrict from = box + LINE * box_row(s, v.lower[0], y, z);
-      double *restrict to = lines + LINE * block_row(g, &v, y, z);
-#pragma omp simd
-      for (size_t i = 0; i < doubles; i++)
-        to[i] += from[i];
-    }
-}
-
-void grid_collect(const struct grid *g, const struct node_block *b, double *lines)
-{
-  memset(lines, 0, g->block_nodes * LINE * sizeof *lines);
-  for (unsigned o = 0; o < g->neighbours; o++) {
-    if (b->neighbour[o] < 0)
-      continue;
-    /* seen from the neighbour, this block lies in the opposite direction */
-    const unsigned opposite = g->neighbours - 1 - o;
-    for (int32_t s = g->block[b->neighbour[o]].source; s >= 0; s = g->source[s].next)
-      add_box(g, (size_t)s, opposite, lines);
   }
 }

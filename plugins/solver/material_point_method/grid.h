@@ -36,7 +36,10 @@ struct source {
   int32_t block;              /* the block of nodes at its place */
   int32_t next;               /* next block of points at this place, or -1 */
   int32_t lower[3], upper[3]; /* nodes of the tile from lower to upper - 1 hold its sums */
+  double *box;                /* these nodes' lines, x fastest */
 };
+
+struct spill;
 
 /* From places (three whole numbers) to numbers. */
 struct place_table;
@@ -70,7 +73,9 @@ struct grid {
 
   size_t sources, source_capacity;
   struct source *source; /* in the order of chunk.serial */
-  double *box;           /* sources * tile_nodes * LINE */
+  double *box;           /* pool of boxes */
+  size_t box_capacity, box_used; /* in lines */
+  struct spill *spill;
 };
 
 gamut_status grid_create(struct grid *, struct gamut_run *, unsigned dimension, unsigned order,
@@ -91,7 +96,7 @@ static inline int32_t grid_block_of(const struct grid *g, int32_t cell)
 gamut_status grid_begin(struct grid *);
 gamut_status grid_block(struct grid *, const int32_t at[3], int32_t *number);
 gamut_status grid_finish(struct grid *);
-/* Room for the boxes of so many blocks of points. */
+/* Room for so many blocks of points. */
 gamut_status grid_sources(struct grid *, size_t sources);
 /* Enters source number `index` at the block; its box is the whole tile until it leaves another. */
 void grid_source(struct grid *, size_t index, int32_t block);
@@ -104,8 +109,12 @@ void grid_node(const struct grid *, const struct node_block *, size_t index, int
 /* Nodes of a source's box from the grid into a tile, and from a tile into the box (the tile is left
  * clear). */
 void grid_load(const struct grid *, const struct source *, double *tile);
-void grid_leave(struct grid *, size_t source, double *tile);
+gamut_status grid_leave(struct grid *, size_t source, double *tile);
 /* Adds up the boxes around a block. `lines` has room for block_nodes lines. */
 void grid_collect(const struct grid *, const struct node_block *, double *lines);
+/* After all blocks of nodes have collected: the boxes are done with. */
+gamut_status grid_forget_boxes(struct grid *);
+gamut_status boxes_create(struct grid *);
+void boxes_destroy(struct grid *);
 
 #endif

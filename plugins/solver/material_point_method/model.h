@@ -118,7 +118,7 @@ gamut_status step_register(struct model *);
 gamut_status step_first_scatter(struct model *);
 
 /* update.c */
-void step_collect(struct model *);
+gamut_status step_collect(struct model *);
 gamut_status step_update_grid(void *self, const struct gamut_chunk *);
 gamut_status step_update_again(void *self, const struct gamut_chunk *);
 

@@ -247,7 +247,8 @@ static gamut_status next(void *self, double *step)
     return GAMUT_OK;
   if (m->taken == 0 || m->moved == 0.0)
     return GAMUT_OK;
-  step_collect(m);
+  if (step_collect(m) != GAMUT_OK)
+    return GAMUT_INTERNAL;
   m->collected = true;
   return sort_points(m);
 }

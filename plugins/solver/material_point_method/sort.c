@@ -11,7 +11,7 @@ static gamut_status room_for_points(struct model *m, size_t slots)
 {
   if (slots <= m->scratch_capacity)
     return GAMUT_OK;
-  const size_t capacity = slots + slots / 8 + 64;
+  const size_t capacity = slots + slots / 64 + 64;
   gamut_release(m->run, m->scratch_source);
   gamut_release(m->run, m->scratch_block);
   gamut_release(m->run, m->scratch_cell);

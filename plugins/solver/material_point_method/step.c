@@ -28,7 +28,7 @@ static gamut_status load_block(void *self, const struct gamut_chunk *chunk)
   return GAMUT_OK;
 }
 
-static void leave_box(struct model *m, struct work *w, size_t serial)
+static gamut_status leave_box(struct model *m, struct work *w, size_t serial)
 {
   struct source *s = &m->grid.source[serial];
   if (m->transfer.finish != NULL)
@@ -39,19 +39,18 @@ static void leave_box(struct model *m, struct work *w, size_t serial)
     w->lower[k] = m->grid.tile;
     w->upper[k] = 0;
   }
-  grid_leave(&m->grid, serial, w->sums);
+  return grid_leave(&m->grid, serial, w->sums);
 }
 
 static gamut_status leave_momentum(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
-  leave_box(m, m->work[chunk->thread], chunk->serial);
-  return GAMUT_OK;
+  return leave_box(m, m->work[chunk->thread], chunk->serial);
 }
 
-static void leave_sums(struct model *m, struct work *w, size_t serial)
+static gamut_status leave_sums(struct model *m, struct work *w, size_t serial)
 {
-  leave_box(m, w, serial);
+  const gamut_status status = leave_box(m, w, serial);
   for (size_t q = 0; q < POINT_SUMS; q++) {
     double sum = 0.0;
     for (size_t l = 0; l < GAMUT_LANES; l++)
@@ -61,13 +60,13 @@ static void leave_sums(struct model *m, struct work *w, size_t serial)
   memset(w->point_sum, 0, POINT_SUMS * GAMUT_LANES * sizeof *w->point_sum);
   m->block_omega[serial] = w->omega_squared;
   w->omega_squared = 0.0;
+  return status;
 }
 
 static gamut_status leave_block(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
-  leave_sums(m, m->work[chunk->thread], chunk->serial);
-  return GAMUT_OK;
+  return leave_sums(m, m->work[chunk->thread], chunk->serial);
 }
 
 static size_t real_points(const struct gamut_set *set, size_t slot, size_t count)
@@ -300,8 +299,7 @@ static gamut_status first_block(struct model *m, const struct body *body, size_t
     if (status != GAMUT_OK)
       return status;
   }
-  leave_sums(m, w, serial);
-  return GAMUT_OK;
+  return leave_sums(m, w, serial);
 }
 
 gamut_status step_first_scatter(struct model *m)

@@ -7,12 +7,13 @@
 /* Below so many blocks of nodes threads cost more than they give. */
 enum { BLOCK_NODES_MAX = 64, FEW_BLOCKS = 64 };
 
-void step_collect(struct model *m)
+gamut_status step_collect(struct model *m)
 {
   struct grid *g = &m->grid;
 #pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < g->blocks; b++)
     grid_collect(g, &g->block[b], g->line + b * g->block_nodes * LINE);
+  return grid_forget_boxes(g);
 }
 
 /* A node that takes no part: what it held is lost, and said to be. */
@@ -110,8 +111,8 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
   const double step = gamut_time_step(m->run);
   if (m->planes.any_moves && planes_find(m) != GAMUT_OK)
     return GAMUT_INTERNAL;
-  if (!m->collected)
-    step_collect(m);
+  if (!m->collected && step_collect(m) != GAMUT_OK)
+    return GAMUT_INTERNAL;
   m->collected = false;
   planes_before_update(m);
 #pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
@@ -161,6 +162,8 @@ gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
 #pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     second_block(m, b);
+  if (grid_forget_boxes(&m->grid) != GAMUT_OK)
+    return GAMUT_INTERNAL;
   planes_before_second(m);
 #pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)

@@ -1,0 +1,186 @@
+/* The boxes of nodal sums that blocks of points leave, and their way to and from the grid. Boxes are
+ * as large as what they hold; they lie in one pool, in the order in which threads come to leave
+ * them, which no sum depends on. */
+#include <string.h>
+
+#include "grid.h"
+
+static const char box_label[] = "boxes of blocks";
+
+/* A box that the pool had no room for. */
+struct spill {
+  struct spill *next;
+  double line[] __attribute__((aligned(64)));
+};
+
+static void drop_spills(struct grid *g)
+{
+  while (g->spill != NULL) {
+    struct spill *next = g->spill->next;
+    gamut_release(g->run, g->spill);
+    g->spill = next;
+  }
+}
+
+void boxes_destroy(struct grid *g)
+{
+  drop_spills(g);
+  gamut_release(g->run, g->box);
+  g->box = NULL;
+}
+
+static gamut_status new_pool(struct grid *g, size_t lines)
+{
+  gamut_release(g->run, g->box);
+  g->box = gamut_allocate(g->run, box_label, lines * LINE * sizeof *g->box);
+  g->box_capacity = g->box != NULL ? lines : 0;
+  return g->box != NULL ? GAMUT_OK : GAMUT_INTERNAL;
+}
+
+/* Right after a sort a full block touches side + order nodes along each axis. */
+gamut_status boxes_create(struct grid *g)
+{
+  size_t nodes = 1;
+  for (unsigned k = 0; k < g->dimension; k++)
+    nodes *= (size_t)g->side + g->order;
+  return new_pool(g, g->sources * nodes + 1);
+}
+
+gamut_status grid_forget_boxes(struct grid *g)
+{
+  const size_t used = g->box_used;
+  drop_spills(g);
+  g->box_used = 0;
+  if (used <= g->box_capacity)
+    return GAMUT_OK;
+  return new_pool(g, used + used / 8);
+}
+
+/* Room for a box of so many nodes. */
+static double *take_box(struct grid *g, size_t nodes)
+{
+  size_t at;
+#pragma omp atomic capture
+  {
+    at = g->box_used;
+    g->box_used += nodes;
+  }
+  if (at + nodes <= g->box_capacity)
+    return g->box + at * LINE;
+  struct spill *spill;
+#pragma omp critical(material_point_method_spill)
+  {
+    spill = gamut_allocate(g->run, box_label, sizeof *spill + nodes * LINE * sizeof(double));
+    if (spill != NULL) {
+      spill->next = g->spill;
+      g->spill = spill;
+    }
+  }
+  return spill != NULL ? spill->line : NULL;
+}
+
+/* What of a source's box lies in the block of nodes that is neighbour o of the source's own. */
+struct overlap {
+  int lower[3], upper[3]; /* in nodes of the tile */
+  int offset[3];          /* the tile's node that is the block's node 0 */
+};
+
+static bool overlap_of(const struct grid *g, const struct source *s, unsigned o, struct overlap *v)
+{
+  for (unsigned k = 0; k < 3; k++) {
+    const bool real = k < g->dimension;
+    const int step = real ? (int)(o % 3) - 1 : 0;
+    o /= 3;
+    v->offset[k] = real ? 1 + g->side * step : 0;
+    const int end = v->offset[k] + (real ? g->side : 1);
+    v->lower[k] = s->lower[k] > v->offset[k] ? s->lower[k] : v->offset[k];
+    v->upper[k] = s->upper[k] < end ? s->upper[k] : end;
+    if (v->lower[k] >= v->upper[k])
+      return false;
+  }
+  return true;
+}
+
+static size_t block_row(const struct grid *g, const struct overlap *v, int y, int z)
+{
+  const int i = v->lower[0] - v->offset[0];
+  return (size_t)(i + g->side * ((y - v->offset[1]) + g->side * (z - v->offset[2])));
+}
+
+static size_t tile_row(const struct grid *g, int x, int y, int z)
+{
+  return (size_t)(x + g->tile * (y + g->tile * z));
+}
+
+static size_t box_row(const struct source *s, int x, int y, int z)
+{
+  const int nx = s->upper[0] - s->lower[0], ny = s->upper[1] - s->lower[1];
+  return (size_t)((x - s->lower[0]) + nx * ((y - s->lower[1]) + ny * (z - s->lower[2])));
+}
+
+void grid_load(const struct grid *g, const struct source *s, double *tile)
+{
+  const struct node_block *b = &g->block[s->block];
+  for (unsigned o = 0; o < g->neighbours; o++) {
+    struct overlap v;
+    if (!overlap_of(g, s, o, &v))
+      continue;
+    const double *line = g->line + (size_t)b->neighbour[o] * g->block_nodes * LINE;
+    const size_t bytes = (size_t)(v.upper[0] - v.lower[0]) * LINE * sizeof *line;
+    for (int z = v.lower[2]; z < v.upper[2]; z++)
+      for (int y = v.lower[1]; y < v.upper[1]; y++)
+        memcpy(tile + LINE * tile_row(g, v.lower[0], y, z), line + LINE * block_row(g, &v, y, z),
+               bytes);
+  }
+}
+
+gamut_status grid_leave(struct grid *g, size_t source, double *tile)
+{
+  struct source *s = &g->source[source];
+  const int nx = s->upper[0] - s->lower[0], ny = s->upper[1] - s->lower[1],
+            nz = s->upper[2] - s->lower[2];
+  if (nx <= 0 || ny <= 0 || nz <= 0)
+    return GAMUT_OK;
+  s->box = take_box(g, (size_t)nx * (size_t)ny * (size_t)nz);
+  if (s->box == NULL)
+    return GAMUT_INTERNAL;
+  const size_t bytes = (size_t)nx * LINE * sizeof *s->box;
+  for (int z = s->lower[2]; z < s->upper[2]; z++)
+    for (int y = s->lower[1]; y < s->upper[1]; y++) {
+      double *row = tile + LINE * tile_row(g, s->lower[0], y, z);
+      memcpy(s->box + LINE * box_row(s, s->lower[0], y, z), row, bytes);
+      memset(row, 0, bytes);
+    }
+  return GAMUT_OK;
+}
+
+static void add_box(const struct grid *g, size_t index, unsigned o, double *lines)
+{
+  const struct source *s = &g->source[index];
+  struct overlap v;
+  if (!overlap_of(g, s, o, &v))
+    return;
+  const double *box = s->box;
+  const size_t doubles = (size_t)(v.upper[0] - v.lower[0]) * LINE;
+  for (int z = v.lower[2]; z < v.upper[2]; z++)
+    for (int y = v.lower[1]; y < v.upper[1]; y++) {
+      const double *restrict from = box + LINE * box_row(s, v.lower[0], y, z);
+      double *restrict to = lines + LINE * block_row(g, &v, y, z);
+#pragma omp simd
+      for (size_t i = 0; i < doubles; i++)
+        to[i] += from[i];
+    }
+}
+
+void grid_collect(const struct grid *g, const struct node_block *b, double *lines)
+{
+  memset(lines, 0, g->block_nodes * LINE * sizeof *lines);
+  for (unsigned o = 0; o < g->neighbours; o++) {
+    if (b->neighbour[o] < 0)
+      continue;
+    /* seen from the neighbour, this block lies in the opposite direction */
+    const unsigned opposite = g->neighbours - 1 - o;
+    for (int32_t s = g->block[b->neighbour[o]].source; s >= 0; s = g->source[s].next)
+      add_box(g, (size_t)s, opposite, lines);
+  }
+}
