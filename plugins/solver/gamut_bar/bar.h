@@ -11,14 +11,12 @@
 
 struct bar;
 
-/* ---- sums.c: sums in a fixed order, whatever the threads ---------------------------------------
- */
+/* ---- sums.c: sums in a fixed order, whatever the threads -------------------------------- */
 
 double sum_of_products(size_t count, const double *x, const double *y);
 double largest(size_t count, const double *x); /* of absolute values; NaN if one is NaN */
 
-/* ---- operator_dense.c, operator_interpolated.c: y = G x, G the symmetric pair kernel -----------
- */
+/* ---- operator_dense.c, operator_interpolated.c: y = G x, G the symmetric pair kernel ---- */
 
 struct pair_kernel {
   void (*apply)(const void *self, const double *x, double *y);
@@ -30,16 +28,17 @@ gamut_status dense_new(struct bar *, const double *noise, struct pair_kernel *);
  */
 gamut_status interpolated_new(struct bar *, struct pair_kernel *);
 
-/* ---- family.c: stresses of the families with Masing memory -------------------------------------
- */
+/* ---- family.c: stresses of the families with Masing memory ------------------------------ */
 
 enum { FAMILY_CHUNK = 512 };
 
 /* One chunk of families: the law with arrays of its own. */
 struct family_law {
   struct gamut_law *law;
-  double *given, *inverse;       /* stress in, plastic strain out */
-  double *strain, *flow, *slope; /* plastic strain in, flow stress and slope out */
+  size_t from, count;              /* bonds */
+  double *given, *inverse;         /* stress in, plastic strain out */
+  double *strain, *flow, *slope;   /* plastic strain in, flow stress and slope out */
+  double *modulus, *yield, *n, *K; /* of ramberg_osgood; null where the law has none */
 };
 
 struct families {
@@ -60,8 +59,7 @@ gamut_status families_evaluate(struct bar *, const double *internal);
 /* Remembers the last evaluation, which was at these T. */
 gamut_status families_commit(struct bar *, const double *internal);
 
-/* ---- load.c: the path of the force -------------------------------------------------------------
- */
+/* ---- load.c: the path of the force ------------------------------------------------------ */
 
 enum load_kind { LOAD_MONOTONIC, LOAD_CYCLIC, LOAD_TABLE };
 enum { LEVELS_MAX = 64 };
@@ -85,8 +83,7 @@ bool load_next(struct bar *, double *stress);
 /* After a step: where the path stands. */
 void load_stepped(struct bar *);
 
-/* ---- the bar ------------------------------------------------------------------------------------
- */
+/* ---- the bar ---------------------------------------------------------------------------- */
 
 struct level {
   double stress, strain; /* amplitudes, at the tensile tip */

@@ -10,10 +10,12 @@
 enum { TURN_T, TURN_S, TURN_PI };
 enum { THREADED = 16 }; /* chunks from which threads are worth waking */
 
-static gamut_status law_new(struct bar *bar, struct family_law *law)
+static gamut_status law_new(struct bar *bar, size_t from, struct family_law *law)
 {
   const struct gamut_host *host = GAMUT_HOST(bar->run);
-  gamut_status status = host->law(bar->run, bar->body, "strength", FAMILY_CHUNK, &law->law);
+  law->from = from;
+  law->count = bar->bonds - from < FAMILY_CHUNK ? bar->bonds - from : FAMILY_CHUNK;
+  gamut_status status = host->law(bar->run, bar->body, "strength", law->count, &law->law);
   if (status != GAMUT_OK)
     return status;
   law->given = host->law_array(law->law, "flow_stress_given");
@@ -21,6 +23,10 @@ static gamut_status law_new(struct bar *bar, struct family_law *law)
   law->strain = host->law_array(law->law, "plastic_strain");
   law->flow = host->law_array(law->law, "flow_stress");
   law->slope = host->law_array(law->law, "flow_stress_slope_plastic_strain");
+  law->modulus = host->law_array(law->law, "youngs_modulus");
+  law->yield = host->law_array(law->law, "yield_stress");
+  law->n = host->law_array(law->law, "n");
+  law->K = host->law_array(law->law, "K");
   if (!law->given || !law->inverse || !law->strain || !law->flow || !law->slope)
     return gamut_fail(bar->run, GAMUT_SCENE,
                       "solver/gamut_bar needs a strength that gives the plastic strain at a stress "
@@ -39,7 +45,7 @@ gamut_status families_new(struct bar *bar, size_t depth)
   if (!f->law)
     return GAMUT_INTERNAL;
   for (size_t c = 0; c < f->laws; c++) {
-    gamut_status status = law_new(bar, &f->law[c]);
+    gamut_status status = law_new(bar, c * FAMILY_CHUNK, &f->law[c]);
     if (status != GAMUT_OK)
       return status;
   }
@@ -57,8 +63,7 @@ gamut_status families_new(struct bar *bar, size_t depth)
   return f->count && f->trial_count && f->below ? GAMUT_OK : GAMUT_INTERNAL;
 }
 
-/* ---- memory -------------------------------------------------------------------------------------
- */
+/* ---- memory ----------------------------------------------------------------------------- */
 
 /* What family i remembers at `level`, with the turn under way on top. */
 static double remembered(const struct families *f, size_t bonds, size_t i, size_t level, int what)
@@ -110,8 +115,7 @@ static bool turns(const struct families *f, size_t bonds, size_t i, double T)
   return (T - f->internal[i]) * f->direction[i] < 0.0 && fabs(f->plastic[i] - begin) > straight;
 }
 
-/* ---- the curve ----------------------------------------------------------------------------------
- */
+/* ---- the curve -------------------------------------------------------------------------- */
 
 /* One chunk's work: bonds from to from + count; t and s of the curve, both positive. */
 struct curve {
@@ -169,8 +173,8 @@ static bool evaluate_chunk(struct bar *bar, size_t chunk, const double *T)
 {
   struct families *f = &bar->families;
   const struct gamut_host *host = GAMUT_HOST(bar->run);
-  size_t n = bar->bonds, from = chunk * FAMILY_CHUNK;
-  struct curve c = {.from = from, .count = n - from < FAMILY_CHUNK ? n - from : FAMILY_CHUNK};
+  size_t n = bar->bonds, from = f->law[chunk].from;
+  struct curve c = {.from = from, .count = f->law[chunk].count};
   for (size_t k = 0; k < c.count; k++) {
     size_t i = from + k;
     bool turned = turns(f, n, i, T[i]);

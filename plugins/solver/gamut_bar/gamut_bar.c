@@ -59,8 +59,7 @@ static gamut_status read_material(struct bar *bar)
   return GAMUT_OK;
 }
 
-/* Turns that a family must remember at once: those of the load within itself, and a few of its own.
- */
+/* Turns that a family must remember at once: those of the load within itself, and a few more. */
 static size_t memory_depth(const struct bar *bar)
 {
   enum { SPARE = 4, MOST = 64 };

@@ -1,11 +1,11 @@
-/* Local and nonlocal deformation-gamuts (Eqs. 2 and 3, in the energy of docs/theory/gamut_bar.md).
- */
+/* Local and nonlocal deformation-gamuts: Eqs. 2 and 3 in the energy of the theory page. */
 #include "bar.h"
 
 /* R(e) E~ e^2 / 2 on Ramberg and Osgood's curve, without cancellation. */
 static double on_curve(const struct bar *bar, size_t i, double s, double plastic)
 {
-  return s * plastic / (bar->n + 1.0) + 0.5 * bar->softening[i] * plastic * plastic;
+  double n = bar->families.law[i / FAMILY_CHUNK].n[i % FAMILY_CHUNK];
+  return s * plastic / (n + 1.0) + 0.5 * bar->softening[i] * plastic * plastic;
 }
 
 /* dU = pi dT along the branches that are remembered; each is the curve twice as large. */
@@ -13,6 +13,8 @@ double nonlocal_gamut(const struct bar *bar, size_t i)
 {
   const struct families *f = &bar->families;
   double T = 0.0, s = 0.0, plastic = 0.0, energy = 0.0;
+  if (isnan(bar->n))
+    return NAN;
   for (size_t k = 0; k <= f->count[i]; k++) {
     bool last = k == f->count[i];
     size_t at = k * bar->bonds + i;

@@ -1,8 +1,7 @@
 /* Backward Euler in the forces of the bonds: no displacements, so nothing cancels.
  *
  * l (eps - 2 eps_old + eps_older) / dt^2 = a_right - a_left, node accelerations from the forces
- * beside them. With eps = f / (A E) + w pi this is a symmetric tridiagonal system for the forces f.
- */
+ * beside them. With eps = f / (A E) + w pi this is a symmetric tridiagonal system for f. */
 #include <string.h>
 
 #include "bar.h"

@@ -71,8 +71,7 @@ gamut_status load_new(struct bar *bar)
   return load->kind == LOAD_TABLE ? table(bar) : monotonic(bar);
 }
 
-/* ---- where to next ------------------------------------------------------------------------------
- */
+/* ---- where to next ---------------------------------------------------------------------- */
 
 static double next_rung(struct load *load)
 {
@@ -123,8 +122,7 @@ bool load_next(struct bar *bar, double *stress)
   return true;
 }
 
-/* ---- after a step -------------------------------------------------------------------------------
- */
+/* ---- after a step ----------------------------------------------------------------------- */
 
 static void keep_level(struct bar *bar, long level)
 {

@@ -3,8 +3,7 @@
 
 #include "bar.h"
 
-/* ---- fit of the hardening law -------------------------------------------------------------------
- */
+/* ---- fit of the hardening law ----------------------------------------------------------- */
 
 struct fit {
   double n, K;
@@ -51,8 +50,7 @@ static double hardening(const struct bar *bar, const char *name, const struct ga
   return name[0] == 'n' ? fit.n : fit.K;
 }
 
-/* ---- the rest -----------------------------------------------------------------------------------
- */
+/* ---- the rest --------------------------------------------------------------------------- */
 
 static double strain_measure(const struct bar *bar)
 {

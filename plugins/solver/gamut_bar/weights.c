@@ -4,8 +4,7 @@
 
 #include "bar.h"
 
-/* ---- standard deviations (Eq. 31) --------------------------------------------------------------
- */
+/* ---- standard deviations (Eq. 31) ------------------------------------------------------- */
 
 enum { BLOCK = 64 };
 
@@ -111,8 +110,7 @@ static void find_spreads(struct bar *bar)
     bar->spread[p] = spread_of(&u, p);
 }
 
-/* ---- scaling ------------------------------------------------------------------------------------
- */
+/* ---- scaling ---------------------------------------------------------------------------- */
 
 /* r = a (G V a), the row sums of w. */
 static void row_sums(const struct bar *bar, double *r, double *work)
