@@ -105,3 +105,44 @@ done:
   free(placed);
   return status;
 }
+
+/* The state that both set from its beginning, so that one of them would be lost; null if none. */
+static const struct field *lost_between(const struct task *one, const struct task *other)
+{
+  for (size_t u = 0; u < one->uses; u++) {
+    const struct field *field = one->use[u].field;
+    if (!field->history || one->use[u].access != GAMUT_WRITE || uses_as(one, field, reads_end))
+      continue;
+    for (size_t k = 0; k < other->uses; k++)
+      if (other->use[k].field == field && other->use[k].access == GAMUT_WRITE &&
+          !uses_as(other, field, reads_end))
+        return field;
+  }
+  return NULL;
+}
+
+static bool meet(const struct task *one, const struct task *other, size_t sets)
+{
+  for (size_t s = 0; s < sets; s++)
+    if (task_on_set(one, s) && task_on_set(other, s))
+      return true;
+  return false;
+}
+
+gamut_status plan_conflicts(const struct schedule *schedule, size_t sets, struct trace *trace)
+{
+  for (size_t i = 0; i < schedule->tasks; i++)
+    for (size_t k = i + 1; k < schedule->tasks; k++) {
+      const struct task *one = schedule->task[i], *other = schedule->task[k];
+      if (!one->live || !other->live || one->phase != other->phase ||
+          strcmp(one->owner, other->owner) == 0 || !meet(one, other, sets))
+        continue;
+      const struct field *field = lost_between(one, other);
+      if (field)
+        return trace_fail_at(trace, GAMUT_SCENE, NULL, NULL,
+                             "one of them, or `bodies:` that they do not share",
+                             "%s and %s both set %s of the same points", one->owner, other->owner,
+                             field->name);
+    }
+  return GAMUT_OK;
+}

@@ -32,6 +32,8 @@ struct schedule {
 gamut_status plan_liveness(struct schedule *, struct trace *);
 /* order.c: sorts by phase, then by who writes what others read. */
 gamut_status plan_order(struct schedule *, struct trace *);
+/* Refuses two owners that set one state of the same points in one phase: the later would win. */
+gamut_status plan_conflicts(const struct schedule *, size_t sets, struct trace *);
 /* sweeps.c: joins tasks into sweeps, decides what is stored. */
 gamut_status plan_sweeps(struct schedule *, struct fields *, size_t sets, struct trace *);
 

@@ -164,6 +164,7 @@ gamut_status schedule_plan(struct schedule *schedule, struct fields *fields, siz
   gamut_status status;
   TRY(plan_liveness(schedule, trace));
   TRY(plan_order(schedule, trace));
+  TRY(plan_conflicts(schedule, sets, trace));
   TRY(plan_sweeps(schedule, fields, sets, trace));
 done:
   return status;

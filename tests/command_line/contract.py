@@ -207,6 +207,7 @@ def refused_late(folder):
             (3, 'bodies.bar.velocity=["1 / (x - x)", "0"]', "the velocity of body 'bar'"),
             (3, 'bodies.bar.velocity=["", "0"]', "the formula is empty"),
             (3, "solver.cell=0.3 um", "more than 2e9 points"),
+            (3, "effects.more={model: adiabatic_heating}", "both set temperature"),
             (2, "gamut=2", "belongs to a file"),
             (2, "include=[a.yaml]", "belongs to a file")):
         result = os.path.join(folder, "late")
