@@ -59,7 +59,7 @@ static bool goes_back(const struct history *h)
 static bool window_open(const struct reduction *r, const struct history *h, struct window *w,
                         char *why, size_t size)
 {
-  if (goes_back(h) && !(r->kind == REDUCE_AT && r->at_end)) {
+  if (goes_back(h)) {
     snprintf(why, size, "the curve goes back along its axis, %s", h->axis);
     return false;
   }
@@ -163,6 +163,12 @@ bool reduction_value(const struct reduction *r, const struct history *h, double 
   if (h->count == 0) {
     snprintf(why, size, "nothing was recorded");
     return false;
+  }
+  if (r->kind == REDUCE_AT && r->at_end && h->every_step) {
+    *value = h->value[h->count - 1];
+    if (!isfinite(*value))
+      snprintf(why, size, "the curve is not finite at its end");
+    return isfinite(*value);
   }
   if (!window_open(r, h, &w, why, size))
     return false;

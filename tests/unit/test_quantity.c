@@ -170,6 +170,61 @@ static void test_wave(void)
   history_free(h);
 }
 
+static const struct measure strain = {.name = "strain", .unit = "1"};
+static const struct measure stress = {.name = "stress", .unit = "Pa", .against = &strain};
+
+/* A loop: its axis goes up and back. Every step is kept as it was, more than there was room for. */
+static void test_curve(void)
+{
+  enum { STEPS = 2000 };
+  struct quantity quantity = {.name = "q", .measure = &stress};
+  struct history *h = history_new(&quantity, 0);
+  size_t other = 0;
+  double value = 0;
+  char unit[64], why[200];
+  for (int i = 0; i <= STEPS; ++i)
+    history_tell(h, i < STEPS / 2 ? i : STEPS - i, 3.0 * i, false);
+  history_tell(h, 0, 3.0 * STEPS, true);
+  tap_ok(h->count == STEPS + 1, "every step of a curve is kept once: %zu", h->count);
+  for (int i = 0; i <= STEPS; ++i)
+    other += h->time[i] != (i < STEPS / 2 ? i : STEPS - i) || h->value[i] != 3.0 * i;
+  tap_ok(other == 0, "pairs that are not as they were told: %zu", other);
+  struct reduction end = {.kind = REDUCE_AT, .at_end = true, .to = INFINITY};
+  tap_ok(reduction_value(&end, h, &value, unit, sizeof unit, why, sizeof why) &&
+             value == 3.0 * STEPS,
+         "the end of a loop is its last pair: %g", value);
+  struct reduction most = {.kind = REDUCE_MAX, .to = INFINITY};
+  tap_ok(!reduction_value(&most, h, &value, unit, sizeof unit, why, sizeof why),
+         "a window of a loop is refused: %s", why);
+  history_free(h);
+}
+
+/* A run whose end is not known keeps every step; with a reduction at its end, only that. */
+static void test_endless(void)
+{
+  struct quantity quantity = {.name = "q", .measure = &length};
+  struct history *h = history_new(&quantity, 0);
+  for (int i = 0; i <= 700; ++i)
+    history_tell(h, i, i, false);
+  history_tell(h, 700, 700, true);
+  tap_ok(h->count == 701, "every step of a run without a known end: %zu", h->count);
+  history_free(h);
+  quantity.every = 10;
+  h = history_new(&quantity, 0);
+  for (int i = 0; i <= 7000; ++i)
+    history_tell(h, i, i, false);
+  history_tell(h, 7000, 7000, true);
+  tap_ok(h->count == 701, "every 10 of a run without a known end: %zu", h->count);
+  history_free(h);
+  quantity = (struct quantity){
+      .name = "q", .measure = &length, .reduction = {.kind = REDUCE_AT, .at_end = true}};
+  h = history_new(&quantity, 0);
+  history_tell(h, 0, 1, false);
+  history_tell(h, 700, 5, true);
+  tap_ok(h->count == 2 && h->value[1] == 5, "its end alone: %zu samples", h->count);
+  history_free(h);
+}
+
 int main(void)
 {
   test_samples();
@@ -177,5 +232,7 @@ int main(void)
   test_units();
   test_reductions();
   test_wave();
+  test_curve();
+  test_endless();
   return tap_done();
 }
