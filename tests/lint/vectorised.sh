@@ -11,7 +11,7 @@ FILENAME == ARGV[1] { if (match($0, /:[0-9]+:[0-9]+: optimized: +loop vectorized
               split(substr($0, RSTART + 1), place, ":"); seen[place[1]] = 1 }
             next }
 /^#define/ { define = $2; sub(/\(.*/, "", define) }
-/GAMUT_EACH/ { if (define != "") macro[define] = 1; 
+/GAMUT_EACH/ { if (define != "") macro[define] = 1;
                else if (!seen[FNR] && !seen[FNR + 1]) print FNR }
 !/^#define/ && define == "" { for (name in macro)
                                 if ($0 ~ "(^|[^A-Za-z_])" name "\\(" && !seen[FNR]) print FNR }

@@ -163,7 +163,8 @@ def failures(folder):
            and "did not fail" in said["note"],
            "summary: who failed, and that moments are the rest's")
     wide = DRIVER.replace("cv: 0.1, distribution: lognormal", "cv: 0.7")
-    scene = write(folder, "range.yaml", wide + "uncertainty: {estimator: {model: monte_carlo, runs: 40}, failures: 0.5}\n")
+    scene = write(folder, "range.yaml", wide +
+                  "uncertainty: {estimator: {model: monte_carlo, runs: 40}, failures: 0.5}\n")
     answer = gamut("run", scene, "-o", os.path.join(folder, "range"))
     rows = table(os.path.join(folder, "range"))
     bad = [r for r in rows if float(r[STRENGTH + "yield_stress [Pa]"]) < 0]

@@ -62,7 +62,7 @@ static void newton(const struct hypoelastic *b)
     double lower = choose(f > 0.0 ? 1.0 : 0.0, d, b->scratch[LOWER][i]);
     double upper = choose(f < 0.0 ? 1.0 : 0.0, d, b->scratch[UPPER][i]);
     /* Onto the far end of the bracket counts as outside: around a kink of the law steps could
-     * otherwise go to and fro between both ends. */
+     * otherwise go back and forth between both ends. */
     double low_side = d + step <= lower ? 1.0 : 0.0, high_side = d + step >= upper ? 1.0 : 0.0;
     double far_side = choose(f < 0.0 ? 1.0 : 0.0, low_side, f > 0.0 ? high_side : 0.0);
     double outside = slope > 0.0 ? far_side : 1.0;
