@@ -1,5 +1,5 @@
-/* The boxes of nodal sums that blocks of points leave, and their way to and from the grid. Boxes are
- * as large as what they hold; they lie in one pool, in the order in which threads come to leave
+/* The boxes of nodal sums that blocks of points leave, and their way to and from the grid. Boxes
+ * are as large as what they hold; they lie in one pool, in the order in which threads come to leave
  * them, which no sum depends on. */
 #include <string.h>
 

@@ -38,7 +38,8 @@ INLINE void linear_polynomial(const double *tile, double q[8 * LINE])
 {
   struct line c[8];
   for (int n = 0; n < 8; n++)
-    line_read(&c[n], tile + LINE * ((n & 1) + LINEAR_TILE * ((n >> 1 & 1) + LINEAR_TILE * (n >> 2))));
+    line_read(&c[n],
+              tile + LINE * ((n & 1) + LINEAR_TILE * ((n >> 1 & 1) + LINEAR_TILE * (n >> 2))));
   for (int n = 0; n < 8; n += 2)
     line_subtract(&c[n + 1], &c[n]);
   for (int n = 0; n < 8; n += 4)

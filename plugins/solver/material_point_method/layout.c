@@ -1,6 +1,7 @@
 /* The points of the bodies. A body's points lie on a lattice of its own: the number of points along
  * an axis is that of points per cell, rounded so that the lattice fits the body's bounds exactly; a
- * place of the lattice inside the shape is a point. A scene may list the points of a body instead. */
+ * place of the lattice inside the shape is a point. A scene may list the points of a body instead.
+ */
 #include <math.h>
 
 #include "model.h"
