@@ -1,5 +1,5 @@
-"""Does what a page of the documents says, from its text, and checks what it says comes out: the plugin
-guide here, README and manual in pages.py.
+"""Does what a page of the documents says, from its text, and checks what it says comes out: the
+plugin guide here, README and manual in pages.py.
 
 Marks in a page, each before a fenced block:
   <!-- file: NAME -->        the block is written to NAME
