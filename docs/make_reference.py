@@ -307,7 +307,7 @@ def write(gamut):
     table(("key", "value", "meaning"), (
         ("`model`", "name", "Which effect. Required."),
         ("`enabled`", "auto, on or off", "`auto` unless stated: the effect may decline where it has "
-         "nothing to do. `on`: declining is an error. `off`: as if it were not there."),
+         "nothing to do. `on`: it is kept all the same. `off`: as if it were not there."),
         ("`bodies`", "list of names", "Which bodies; all unless stated."),
         ("`materials`", "list of names", "Which materials; all unless stated.")))
     for kind, title in KINDS:
