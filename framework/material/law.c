@@ -32,11 +32,9 @@ static void evaluate_all(struct law *law)
 
 static void gather(struct law *law, const uint32_t *lane, size_t lanes)
 {
-  for (size_t s = 0; s < law->kernel->slots; s++) {
-    if (!has_row(law->kernel, s) || is_result(&law->kernel->slot[s]))
-      continue;
-    const double *from = law->image->pointer[s];
-    double *to = law->compact->pointer[s];
+  for (size_t r = 0; r < law->arguments; r++) {
+    const double *from = law->image->pointer[law->row[r]];
+    double *to = law->compact->pointer[law->row[r]];
     for (size_t i = 0; i < lanes; i++)
       to[i] = from[lane[i]];
   }
@@ -44,11 +42,9 @@ static void gather(struct law *law, const uint32_t *lane, size_t lanes)
 
 static void spread(struct law *law, const uint32_t *lane, size_t lanes)
 {
-  for (size_t s = 0; s < law->kernel->slots; s++) {
-    if (!has_row(law->kernel, s) || !is_result(&law->kernel->slot[s]))
-      continue;
-    const double *from = law->compact->pointer[s];
-    double *to = law->image->pointer[s];
+  for (size_t r = law->arguments; r < law->arguments + law->results; r++) {
+    const double *from = law->compact->pointer[law->row[r]];
+    double *to = law->image->pointer[law->row[r]];
     for (size_t i = 0; i < lanes; i++)
       to[lane[i]] = from[i];
   }
@@ -123,6 +119,20 @@ static void show_eos(struct law *law, double *unread, double *zero)
       .sound_speed = row_or_spare(law, "sound_speed", zero)};
 }
 
+static bool list_rows(struct law *law, struct arena *arena, const char *label)
+{
+  const struct kernel *kernel = law->kernel;
+  law->row = arena_take(arena, label, (kernel->slots + 1) * sizeof *law->row);
+  for (int results = 0; law->row && results < 2; results++)
+    for (size_t s = 0; s < kernel->slots; s++) {
+      if (!has_row(kernel, s) || is_result(&kernel->slot[s]) != (results == 1))
+        continue;
+      law->row[law->arguments + law->results] = s;
+      *(results ? &law->results : &law->arguments) += 1;
+    }
+  return law->row != NULL;
+}
+
 gamut_status law_new(const struct kernel *kernel, struct arena *arena, size_t rows,
                      struct law **out)
 {
@@ -141,7 +151,8 @@ gamut_status law_new(const struct kernel *kernel, struct arena *arena, size_t ro
     count += has_row(kernel, s);
   law->memory = arena_take(arena, label, count * law->stride * sizeof(double));
   law->gathered = arena_take(arena, label, count * law->stride * sizeof(double));
-  if (!law->image || !law->compact || !law->memory || !law->gathered)
+  if (!law->image || !law->compact || !law->memory || !law->gathered ||
+      !list_rows(law, arena, label))
     return GAMUT_INTERNAL;
   size_t row = 0;
   for (size_t s = 0; s < kernel->slots; s++)
@@ -168,6 +179,7 @@ void law_free(struct law *law, struct arena *arena)
     }
   arena_give(arena, law->memory);
   arena_give(arena, law->gathered);
+  arena_give(arena, law->row);
   arena_give(arena, law);
 }
 

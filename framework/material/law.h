@@ -12,6 +12,8 @@ struct law {
   struct image *image;   /* all points */
   struct image *compact; /* listed points */
   size_t rows, stride;
+  size_t *row; /* slots that have a row: arguments first, then results */
+  size_t arguments, results;
   double *memory;        /* arguments, results, sinks: one row a slot that is not uniform */
   double *gathered;      /* the same rows for listed points */
 };
