@@ -1,5 +1,6 @@
 /* What this machine gives in this minute: memory by a triad, arithmetic by chains of fused
- * multiply-adds, on one thread or as many as asked for. Prints GB/s and GFlop/s of double precision. */
+ * multiply-adds, on one thread or as many as asked for. Prints GB/s and GFlop/s, double precision.
+ */
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>

@@ -122,7 +122,8 @@ def main():
                 print(f"\nParts of the step, {shape}: " +
                       ", ".join(f"{name} {value:.0f} %" for name, value in share.items()))
         if options.sizes:
-            print("\n| cell, mm | points | linear, ns a point-step | quadratic |\n|---|---|---|---|")
+            print("\n| cell, mm | points | linear, ns a point-step | quadratic |")
+            print("|---|---|---|---|")
             for cell in (1.0, 0.45, 0.21, 0.0975):
                 end = EARLY * cell / CELL * (1.0 if cell > 0.2 else 0.3)
                 found = [best(min(options.repeat, 2), shape, end, 1, cell, folder)
