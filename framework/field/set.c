@@ -195,6 +195,21 @@ done:
   return status;
 }
 
+gamut_status set_reshape(struct point_set *set, size_t points, const int64_t *id, size_t slots,
+                         const size_t *first, size_t blocks, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  if (slots > set->capacity)
+    TRY(grow(set, slots, trace));
+  memcpy(set->id, id, slots * sizeof *id);
+  set->open.id = set->id;
+  set->open.points = points;
+  set->open.slots = slots;
+  TRY(keep_blocks(set, first, blocks, trace));
+done:
+  return status;
+}
+
 double *set_stored(const struct point_set *set, struct gamut_field field, unsigned component)
 {
   return set->array ? set->array[field.first + component] : NULL;

@@ -326,6 +326,27 @@ const struct kernel *material_kernel(const struct bound_material *bound, enum ga
                                                                                    : ELASTICITY];
 }
 
+_Static_assert(MATERIAL_COUNTS == ROLES * FLAG_COUNTS, "one tally a role");
+
+void material_counts(const struct bound_material *bound, int64_t count[MATERIAL_COUNTS])
+{
+  for (int role = 0; role < ROLES; role++)
+    tally_counts(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
+                 count + role * FLAG_COUNTS);
+}
+
+void material_go_on(struct bound_material *bound, const int64_t count[MATERIAL_COUNTS])
+{
+  for (int role = 0; role < ROLES; role++)
+    tally_go_on(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
+                count + role * FLAG_COUNTS);
+}
+
+void material_step_factor_keep(struct bound_material *bound, double factor)
+{
+  bound->seat[0].step_factor = factor;
+}
+
 bool material_flag(const struct bound_material *bound, size_t index, struct flag_report *report)
 {
   for (int role = 0; role < ROLES; role++)

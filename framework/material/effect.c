@@ -233,6 +233,16 @@ void effect_call(struct bound_effect *bound, size_t task, size_t material,
   tally_block(&seat->tally, image->status, chunk);
 }
 
+void effect_counts(const struct bound_effect *bound, int64_t count[FLAG_COUNTS])
+{
+  tally_counts(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat), count);
+}
+
+void effect_go_on(struct bound_effect *bound, const int64_t count[FLAG_COUNTS])
+{
+  tally_go_on(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat), count);
+}
+
 bool effect_flag(const struct bound_effect *bound, size_t index, struct flag_report *report)
 {
   return tally_report(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat),

@@ -58,7 +58,7 @@ void links_free(struct links *);
 struct field *slot_field(const struct kernel *, size_t slot, struct fields *, struct trace *);
 
 /* Counts of flagged points, one a thread and plugin. */
-enum { TALLY_MESSAGES = 64 };
+enum { TALLY_MESSAGES = FLAG_COUNTS };
 struct tally {
   uint64_t count[TALLY_MESSAGES];
   bool stopped;
@@ -72,5 +72,8 @@ bool tally_report(const struct tally *, size_t tallies, size_t stride,
                   const struct descriptor *, size_t *index, struct flag_report *);
 bool tally_stopped(struct tally *, size_t tallies, size_t stride, const struct descriptor *,
                    struct flag_stop *);
+/* The counts over all threads, and counts that another run came to (kept by the first thread). */
+void tally_counts(const struct tally *, size_t tallies, size_t stride, int64_t *count);
+void tally_go_on(struct tally *, size_t tallies, size_t stride, const int64_t *count);
 
 #endif

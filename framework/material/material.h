@@ -114,4 +114,13 @@ bool material_stopped(struct bound_material *, struct flag_stop *);
 bool effect_flag(const struct bound_effect *, size_t index, struct flag_report *);
 bool effect_stopped(struct bound_effect *, struct flag_stop *);
 
+/* For checkpoints: the counts so far, and going on from those of another run. */
+enum { FLAG_COUNTS = 64, MATERIAL_COUNTS = 3 * FLAG_COUNTS };
+void material_counts(const struct bound_material *, int64_t count[MATERIAL_COUNTS]);
+void material_go_on(struct bound_material *, const int64_t count[MATERIAL_COUNTS]);
+void effect_counts(const struct bound_effect *, int64_t count[FLAG_COUNTS]);
+void effect_go_on(struct bound_effect *, const int64_t count[FLAG_COUNTS]);
+/* Gives back what material_step_factor took. */
+void material_step_factor_keep(struct bound_material *, double factor);
+
 #endif

@@ -68,3 +68,19 @@ bool tally_stopped(struct tally *tally, size_t tallies, size_t stride, const str
   }
   return found;
 }
+
+void tally_counts(const struct tally *tally, size_t tallies, size_t stride, int64_t *count)
+{
+  for (size_t m = 0; m < TALLY_MESSAGES; m++) {
+    count[m] = 0;
+    for (size_t t = 0; t < tallies; t++)
+      count[m] += (int64_t)tally_at(tally, stride, t)->count[m];
+  }
+}
+
+void tally_go_on(struct tally *tally, size_t tallies, size_t stride, const int64_t *count)
+{
+  for (size_t t = 0; t < tallies; t++)
+    for (size_t m = 0; m < TALLY_MESSAGES; m++)
+      tally_at(tally, stride, t)->count[m] = t ? 0 : (uint64_t)count[m];
+}

@@ -37,6 +37,11 @@ static const char *quantity_unit(const struct quantity *quantity)
   return quantity->field ? field_unit(quantity->field) : "1";
 }
 
+static double samples_until(const struct history *h, double end)
+{
+  return h->every > 0 ? ceil(end / h->every) + 3 : 3;
+}
+
 struct history *history_new(const struct quantity *quantity, double end)
 {
   assert(quantity && end >= 0);
@@ -54,7 +59,7 @@ struct history *history_new(const struct quantity *quantity, double end)
   h->every_step =
       (quantity->measure && quantity->measure->against) || (!(h->every > 0) && !last_only);
   h->grows |= h->every_step;
-  double samples = h->every > 0 ? ceil(end / h->every) + 3 : 3;
+  double samples = samples_until(h, end);
   if (samples < (double)(PTRDIFF_MAX / (ptrdiff_t)sizeof(double))) {
     h->capacity = (size_t)samples;
     h->time = malloc(h->capacity * sizeof *h->time);
@@ -76,9 +81,8 @@ void history_free(struct history *h)
   free(h);
 }
 
-static bool grow(struct history *h)
+static bool reserve(struct history *h, size_t capacity)
 {
-  size_t capacity = 2 * h->capacity + 256;
   double *time = realloc(h->time, capacity * sizeof *time);
   if (time)
     h->time = time;
@@ -88,6 +92,25 @@ static bool grow(struct history *h)
   if (!time || !value)
     return false;
   h->capacity = capacity;
+  return true;
+}
+
+static bool grow(struct history *h)
+{
+  return reserve(h, 2 * h->capacity + 256);
+}
+
+bool history_go_on(struct history *h, double end, double every, const double *time,
+                   const double *value, size_t count)
+{
+  h->every = every;
+  double samples = samples_until(h, end);
+  size_t room = samples < (double)(PTRDIFF_MAX / (ptrdiff_t)sizeof(double)) ? (size_t)samples : 0;
+  if (!reserve(h, room > count ? room : count))
+    return false;
+  memcpy(h->time, time, count * sizeof *time);
+  memcpy(h->value, value, count * sizeof *value);
+  h->count = count;
   return true;
 }
 

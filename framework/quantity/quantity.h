@@ -30,6 +30,12 @@ void history_free(struct history *);
  * only where every step is kept or the end is not known. */
 void history_tell(struct history *, double time, double value, bool final);
 
+/* Makes a fresh history go on from `count` samples of another run. Its sampling is kept where `end`
+ * has moved, so `every` is that of the other run. The caller sets what was told last. False without
+ * memory. */
+bool history_go_on(struct history *, double end, double every, const double *time,
+                   const double *value, size_t count);
+
 /* The value of a reduction over a history, with its unit (the measure's, s, or unit/s). False with
  * a reason when it has none (level never crossed, empty window, values that are not finite). The
  * history is taken as straight lines between its samples; a window is cut to what was recorded. */

@@ -5,12 +5,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "store/checkpoint.h"
 #include "store/file.h"
 #include "store/hdf5.h"
 #include "store/state.h"
 
-static const char *const result_files[] = {RESULT_HDF5, RESULT_XDMF, RESULT_HISTORY, RESULT_SUMMARY,
-                                           RESULT_SCENE, RESULT_STUDY, RESULT_LOG};
+static const char *const result_files[] = {
+    RESULT_HDF5,  RESULT_XDMF, RESULT_HISTORY,  RESULT_SUMMARY,      RESULT_SCENE,
+    RESULT_STUDY, RESULT_LOG,  CHECKPOINT_FILE, CHECKPOINT_PREVIOUS, CHECKPOINT_PARTIAL};
 enum { RESULT_FILES = sizeof result_files / sizeof result_files[0] };
 
 /* Name of the first file of a result that the folder holds, or null. */
@@ -98,7 +100,8 @@ static gamut_status make_way(const char *folder, bool force, struct trace *trace
   if (!force)
     return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL,
                          study ? "--resume goes on with the study, --force replaces it"
-                               : "choose another folder, or --force to replace the result",
+                               : "choose another folder; --resume goes on from its checkpoint, "
+                                 "--force replaces the result",
                          "'%s' holds a result already (%s)", folder, former);
   if (!is_ours(folder))
     return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL, "choose another folder",
@@ -148,6 +151,21 @@ gamut_status store_broken(struct store *store, struct trace *trace)
   return hdf5_fault(store->path, "write", trace);
 }
 
+/* Null when out of memory. */
+static struct store *store_new(const char *folder)
+{
+  struct store *store = calloc(1, sizeof *store);
+  if (!store)
+    return NULL;
+  store->file = -1;
+  store->folder = strdup(folder);
+  store->path = file_path(folder, RESULT_HDF5);
+  if (store->folder && store->path)
+    return store;
+  store_close(store);
+  return NULL;
+}
+
 enum opening { OPEN_NEW, OPEN_FORCE, OPEN_RENEW };
 
 static gamut_status open_as(const char *folder, enum opening how, struct trace *trace,
@@ -156,16 +174,9 @@ static gamut_status open_as(const char *folder, enum opening how, struct trace *
   gamut_status status = GAMUT_OK;
   *made = NULL;
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  struct store *store = calloc(1, sizeof *store);
-  if (store) {
-    store->file = -1;
-    store->folder = strdup(folder);
-    store->path = file_path(folder, RESULT_HDF5);
-  }
-  if (!store || !store->folder || !store->path) {
-    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
-    goto done;
-  }
+  struct store *store = store_new(folder);
+  if (!store)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   TRY(folder_make(folder, trace));
   TRY(how == OPEN_RENEW ? remove_former(folder, true, trace)
                         : make_way(folder, how == OPEN_FORCE, trace));
@@ -185,6 +196,87 @@ gamut_status store_open(const char *folder, bool force, struct trace *trace, str
 gamut_status store_renew(const char *folder, struct trace *trace, struct store **made)
 {
   return open_as(folder, OPEN_RENEW, trace, made);
+}
+
+static gamut_status remove_file(const char *folder, const char *name, struct trace *trace)
+{
+  char *path = file_path(folder, name);
+  gamut_status status =
+      path ? file_remove(path, trace) : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  free(path);
+  return status;
+}
+
+static herr_t drop_frames(struct store *store)
+{
+  H5G_info_t information;
+  char name[32];
+  if (H5Gget_info_by_name(store->file, "frames", &information, H5P_DEFAULT) < 0 ||
+      information.nlinks < store->frames)
+    return -1;
+  for (size_t i = store->frames; i < information.nlinks; i++) {
+    snprintf(name, sizeof name, "frames/%08zu", i);
+    if (H5Ldelete(store->file, name, H5P_DEFAULT) < 0)
+      return -1;
+  }
+  return 0;
+}
+
+static hid_t reopen_file(const char *path)
+{
+  hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+#if H5_VERSION_GE(1, 10, 7)
+  H5Pset_file_locking(access, 0, 1);
+#endif
+  hid_t file = H5Fopen(path, H5F_ACC_RDWR, access);
+  H5Pclose(access);
+  return file;
+}
+
+gamut_status store_reopen(const char *folder, const struct store_place *place, struct trace *trace,
+                          struct store **made)
+{
+  gamut_status status = GAMUT_OK;
+  *made = NULL;
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  struct store *store = store_new(folder);
+  if (!store)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  store->frames = place->frames;
+  store->last_time = place->last_time;
+  store->last_step = place->last_step;
+  text_add(&store->xdmf, "%s", place->xdmf);
+  store->file = is_ours(folder) ? reopen_file(store->path) : -1;
+  if (store->file < 0 || drop_frames(store) < 0)
+    status = trace_fail(trace, GAMUT_OUTPUT,
+                        "'%s' cannot be gone on with: it is missing, broken, or lacks frames that "
+                        "were there at the checkpoint",
+                        store->path);
+  else
+    status = hdf5_flush(store->file, store->path, trace);
+  if (status == GAMUT_OK)
+    status = xdmf_write(store, trace);
+  /* what it says is no longer so */
+  if (status == GAMUT_OK)
+    status = remove_file(folder, RESULT_SUMMARY, trace);
+  if (status == GAMUT_OK)
+    *made = store;
+  else
+    store_close(store);
+  return status;
+}
+
+struct store_place store_place_of(const struct store *store)
+{
+  return (struct store_place){.frames = store->frames,
+                              .last_time = store->last_time,
+                              .last_step = store->last_step,
+                              .xdmf = store->xdmf.data ? store->xdmf.data : ""};
+}
+
+bool store_there(const char *folder)
+{
+  return former_file(folder) != NULL;
 }
 
 void store_close(struct store *store)

@@ -14,13 +14,28 @@ struct store;
 
 /* Creates DIR (and its parents). An existing result is refused with GAMUT_OUTPUT unless `force`,
  * which removes only files of a former result: results.h5, results.xdmf, history.csv, summary.json,
- * scene.yaml, study.csv, study.log and what `gamut plot` made in pictures/, and only where
- * results.h5 is one of ours.
+ * scene.yaml, study.csv, study.log, checkpoints and what `gamut plot` made in pictures/, and only
+ * where results.h5 is one of ours.
  * Nothing is made when the scene was wrong: call this late. */
 gamut_status store_open(const char *folder, bool force, struct trace *, struct store **);
 /* Makes the results of a study anew whose study.log, which stays, says what has been run. */
 gamut_status store_renew(const char *folder, struct trace *, struct store **);
 void store_close(struct store *); /* accepts null */
+
+/* How far the frames of a result have come; xdmf is borrowed from the store. */
+struct store_place {
+  size_t frames;
+  double last_time;
+  uint64_t last_step;
+  const char *xdmf;
+};
+struct store_place store_place_of(const struct store *);
+/* Opens the result in a folder to go on from a place where it has been: later frames are dropped.
+ * GAMUT_OUTPUT where results.h5 is not there, not ours, broken, or lacks frames. */
+gamut_status store_reopen(const char *folder, const struct store_place *, struct trace *,
+                          struct store **);
+/* Whether the folder holds some file of a result. */
+bool store_there(const char *folder);
 
 /* One set of points in a frame: `count` real points. */
 struct frame_set {
