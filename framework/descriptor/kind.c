@@ -30,11 +30,11 @@ const char *kind_operation(enum gamut_kind kind, size_t index)
       [GAMUT_KIND_EOS] = {"pressure", "derivatives"},
       [GAMUT_KIND_STRENGTH] = {"flow_stress", "inverse", "derivatives"},
       [GAMUT_KIND_ELASTICITY] = {"stress", "start"},
-      [GAMUT_KIND_EFFECT] = {"create", "destroy", "decline", "measure"},
+      [GAMUT_KIND_EFFECT] = {"create", "destroy", "decline", "measure", "save", "restore"},
       [GAMUT_KIND_RANDOM_FIELD] = {"create", "destroy", "sample", "below"},
       [GAMUT_KIND_ESTIMATOR] = {"create", "destroy", "ask", "tell", "report", "save", "restore"},
       [GAMUT_KIND_SOLVER] = {"create", "destroy", "start", "next", "after", "plane", "measure",
-                             "describe"},
+                             "describe", "save", "restore"},
   };
   return index < LENGTH(operation[kind]) ? operation[kind][index] : NULL;
 }

@@ -7,7 +7,7 @@
 
 static const size_t operations_of_kind[GAMUT_KINDS] = {
     [GAMUT_KIND_EOS] = 2, [GAMUT_KIND_STRENGTH] = 3, [GAMUT_KIND_ELASTICITY] = 2,
-    [GAMUT_KIND_EFFECT] = 4};
+    [GAMUT_KIND_EFFECT] = 6};
 
 kernel_function kernel_operation(const struct kernel *kernel, size_t number)
 {

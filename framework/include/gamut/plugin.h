@@ -85,6 +85,8 @@ struct gamut_plugin {
  *   decline      optional. Returns true and writes the reason where the effect has nothing to do in
  *                this scene ("C = 0"); it then costs nothing.
  *   measure      optional, required if the descriptor declares measures.
+ *   save, restore  optional, as of a solver: what the effect itself changes during a run. Default:
+ *                nothing.
  *   Its kernels are the `tasks` of the descriptor.
  * random_field, estimator, solver: see their headers.
  */
@@ -103,7 +105,9 @@ struct gamut_plugin {
   void (*destroy)(void *self);                                                                     \
   bool (*decline)(void *self, const struct gamut_values *, char *why, size_t size);                \
   gamut_status (*measure)(void *self, const char *name, const struct gamut_body *body,             \
-                          const struct gamut_values *arguments, double *value);
+                          const struct gamut_values *arguments, double *value);                    \
+  size_t (*save)(const void *self, void *bytes);                                                   \
+  gamut_status (*restore)(void *self, const void *bytes, size_t size);
 
 /* Exports NAME_LTX_gamut_plugin. A build may put further shared objects beside NAME.so, made from
  * the same source for a richer instruction set (NAME.v3.so, NAME.v4.so); each exports the same

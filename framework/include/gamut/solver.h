@@ -31,6 +31,15 @@
                           const struct gamut_values *arguments, double *value);                    \
   /* optional. Writes the longest step the present state allows and what limits it, for explain.   \
    */                                                                                              \
-  gamut_status (*describe)(void *self, double *step, char *text, size_t size);
+  gamut_status (*describe)(void *self, double *step, char *text, size_t size);                     \
+  /* optional: without it a run cannot be stopped and gone on with. The private state between two  \
+   * steps as bytes; called with null bytes to learn the size. The core keeps the stored fields,   \
+   * slots, blocks, ids, ledger lines and histories: only what `start` would not make again from   \
+   * these is due here. No pointers. */                                                            \
+  size_t (*save)(const void *self, void *bytes);                                                   \
+  /* optional, with save. Makes a solver that has just started from the same scene, whose sets and \
+   * stored fields already stand as they were, go on where the saved one stood: to the same bits,  \
+   * with any number of threads. On failure returns a status after gamut_fail. */                  \
+  gamut_status (*restore)(void *self, const void *bytes, size_t size);
 
 #endif

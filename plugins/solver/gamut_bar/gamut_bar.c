@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "bar.h"
+#include "restart.h"
 
 double *bar_array(struct bar *bar, const char *label)
 {
@@ -198,4 +199,4 @@ static gamut_status describe(void *self, double *step, char *text, size_t size)
 }
 
 GAMUT_SOLVER(gamut_bar, .create = create, .destroy = destroy, .start = start, .next = next,
-             .measure = measure_bar, .describe = describe)
+             .measure = measure_bar, .describe = describe, .save = bar_save, .restore = bar_restore)

@@ -216,5 +216,55 @@ static gamut_status describe(void *self, double *step, char *text, size_t size)
   return GAMUT_OK;
 }
 
+/* ---- restart -------------------------------------------------------------------------------- */
+
+struct saved_point {
+  double H[9], rate[SYMMETRIC], energy, work;
+  uint64_t moved;
+};
+
+static size_t save(const void *self, void *bytes)
+{
+  const struct driver *driver = self;
+  unsigned char *to = bytes;
+  for (size_t i = 0; to && i < driver->points; i++) {
+    const struct point *p = &driver->point[i];
+    struct saved_point saved = {.energy = p->energy, .work = p->work, .moved = p->moved};
+    memcpy(saved.H, p->H, sizeof saved.H);
+    memcpy(saved.rate, p->rate, sizeof saved.rate);
+    memcpy(to + sizeof driver->step + i * sizeof saved, &saved, sizeof saved);
+  }
+  if (to)
+    memcpy(to, &driver->step, sizeof driver->step);
+  return sizeof driver->step + driver->points * sizeof(struct saved_point);
+}
+
+static gamut_status restore(void *self, const void *bytes, size_t size)
+{
+  struct driver *driver = self;
+  const unsigned char *from = bytes;
+  double step;
+  if (size != save(driver, NULL))
+    return gamut_fail(driver->run, GAMUT_OUTPUT,
+                      "the state of the driver in the checkpoint does not fit this solver");
+  memcpy(&step, from, sizeof step);
+  if (step != driver->step)
+    return gamut_fail(driver->run, GAMUT_SCENE,
+                      "the step was %g s and is %g s: with `steps` another end is another step",
+                      step, driver->step);
+  for (size_t i = 0; i < driver->points; i++) {
+    struct point *p = &driver->point[i];
+    struct saved_point saved;
+    memcpy(&saved, from + sizeof step + i * sizeof saved, sizeof saved);
+    memcpy(p->H, saved.H, sizeof saved.H);
+    memcpy(p->rate, saved.rate, sizeof saved.rate);
+    p->energy = saved.energy;
+    p->work = saved.work;
+    p->moved = saved.moved != 0;
+  }
+  return GAMUT_OK;
+}
+
 GAMUT_SOLVER(material_driver, .create = create, .destroy = destroy, .start = start, .next = next,
-             .after = after, .measure = measure, .describe = describe)
+             .after = after, .measure = measure, .describe = describe, .save = save,
+             .restore = restore)

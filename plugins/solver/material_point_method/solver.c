@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "model.h"
+#include "restart.h"
 
 /* No sound is faster; it bounds the first step, before the material was asked for its own. */
 static const double fastest_sound = 1e5;
@@ -288,4 +289,5 @@ static gamut_status describe(void *self, double *step, char *text, size_t size)
 }
 
 GAMUT_SOLVER(material_point_method, .create = create, .destroy = destroy, .start = start,
-             .next = next, .after = after, .plane = plane, .measure = measure, .describe = describe)
+             .next = next, .after = after, .plane = plane, .measure = measure, .describe = describe,
+             .save = model_save, .restore = model_restore)

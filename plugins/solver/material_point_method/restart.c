@@ -1,0 +1,202 @@
+/* What the solver keeps between two steps beside the points: the grid with the boxes that the last
+ * sweep left, in their order, and who was in contact. One list serves saving and restoring. */
+#include <string.h>
+
+#include "model.h"
+#include "restart.h"
+
+/* Bytes that go out (`to`), come in (`from`), or are only counted (neither). */
+struct archive {
+  unsigned char *to;
+  const unsigned char *from;
+  size_t at, size;
+  bool failed;
+};
+
+static void pass(struct archive *a, void *data, size_t bytes)
+{
+  if (a->from != NULL) {
+    if (a->failed || bytes > a->size - a->at) {
+      a->failed = true;
+      return;
+    }
+    memcpy(data, a->from + a->at, bytes);
+  } else if (a->to != NULL && bytes > 0) {
+    memcpy(a->to + a->at, data, bytes);
+  }
+  a->at += bytes;
+}
+
+/* Bytes from one build are nothing to another that lays its memory out otherwise. */
+static void pass_layout(const struct model *m, struct archive *a)
+{
+  const uint64_t own[] = {
+      sizeof(struct node_block), sizeof(struct source), sizeof(struct node_sums), POINT_SUMS, LINE,
+      m->grid.tile_nodes,        m->grid.block_nodes,   m->planes.count};
+  uint64_t found[sizeof own / sizeof *own];
+  memcpy(found, own, sizeof own);
+  pass(a, found, sizeof found);
+  a->failed |= memcmp(found, own, sizeof own) != 0;
+}
+
+/* The box of one block of points: it goes in by way of a tile, as a sweep leaves it. */
+static void pass_box(struct model *m, size_t index, struct archive *a)
+{
+  struct grid *g = &m->grid;
+  struct source *s = &g->source[index];
+  struct source copy = *s;
+  copy.box = NULL;
+  pass(a, &copy, sizeof copy);
+  if (a->failed)
+    return;
+  if (a->from != NULL)
+    *s = copy;
+  size_t nodes = 1;
+  for (int k = 0; k < 3; k++)
+    nodes *= s->upper[k] > s->lower[k] ? (size_t)(s->upper[k] - s->lower[k]) : 0;
+  if (a->from == NULL) {
+    pass(a, s->box, nodes * LINE * sizeof *s->box);
+    return;
+  }
+  double *tile = m->work[0]->sums;
+  const size_t row = nodes == 0 ? 0 : (size_t)(s->upper[0] - s->lower[0]) * LINE * sizeof *tile;
+  a->failed = nodes > g->tile_nodes;
+  for (int z = s->lower[2]; z < s->upper[2] && !a->failed; z++)
+    for (int y = s->lower[1]; y < s->upper[1] && !a->failed; y++)
+      pass(a, tile + LINE * (s->lower[0] + g->tile * (y + g->tile * z)), row);
+  if (!a->failed)
+    a->failed = grid_leave(g, index, tile) != GAMUT_OK;
+}
+
+/* Makes the grid anew, block by block in the old order: sums over nodes follow it. */
+static void pass_grid(struct model *m, struct archive *a)
+{
+  struct grid *g = &m->grid;
+  size_t blocks = g->blocks, sources = g->sources;
+  pass(a, &blocks, sizeof blocks);
+  pass(a, &sources, sizeof sources);
+  if (a->from != NULL && !a->failed)
+    a->failed = grid_begin(g) != GAMUT_OK || grid_sources(g, sources) != GAMUT_OK;
+  for (size_t b = 0; b < blocks && !a->failed; b++) {
+    struct node_block block = {0};
+    if (a->from == NULL)
+      block = g->block[b];
+    pass(a, &block, sizeof block);
+    int32_t number = 0;
+    if (a->from == NULL || a->failed)
+      continue;
+    if (grid_block(g, block.at, &number) == GAMUT_OK && (size_t)number == b)
+      g->block[b] = block;
+    else
+      a->failed = true;
+  }
+  if (a->failed)
+    return;
+  pass(a, g->line, blocks * g->block_nodes * LINE * sizeof *g->line);
+  if (a->from != NULL)
+    a->failed |= grid_forget_boxes(g) != GAMUT_OK;
+  for (size_t s = 0; s < sources && !a->failed; s++)
+    pass_box(m, s, a);
+}
+
+static void room_for_sums(struct model *m, struct archive *a)
+{
+  if (m->grid.sources > m->block_capacity) {
+    gamut_release(m->run, m->block_sum);
+    gamut_release(m->run, m->block_omega);
+    m->block_capacity = m->grid.sources;
+    m->block_sum =
+        gamut_allocate(m->run, "sums", m->block_capacity * POINT_SUMS * sizeof *m->block_sum);
+    m->block_omega = gamut_allocate(m->run, "sums", m->block_capacity * sizeof *m->block_omega);
+  }
+  if (m->grid.blocks > m->node_capacity) {
+    gamut_release(m->run, m->node_sum);
+    m->node_capacity = m->grid.blocks;
+    m->node_sum = gamut_allocate(m->run, "sums", m->node_capacity * sizeof *m->node_sum);
+  }
+  a->failed |= m->block_sum == NULL || m->block_omega == NULL || m->node_sum == NULL;
+}
+
+/* Nodes that a plane held in the last step. */
+static void pass_held(struct model *m, struct plane *p, struct archive *a)
+{
+  size_t held = 0;
+  if (a->from == NULL) {
+    for (size_t c = 0; c < p->columns; c++)
+      held += p->column[c].contact;
+    for (size_t n = 0; n < p->nodes; n++)
+      held += p->node[n].contact;
+  }
+  pass(a, &held, sizeof held);
+  if (a->from != NULL) {
+    if (a->failed || held > a->size / sizeof(int32_t[3]) ||
+        places_clear(m->run, &p->held, held) != GAMUT_OK) {
+      a->failed = true;
+      return;
+    }
+    for (int32_t at[3]; held > 0 && !a->failed; held--) {
+      pass(a, at, sizeof at);
+      if (!a->failed)
+        places_put(p->held, at, 1);
+    }
+    return;
+  }
+  for (size_t c = 0; c < p->columns; c++)
+    if (p->column[c].contact)
+      pass(a, p->column[c].node, sizeof p->column[c].node);
+  for (size_t n = 0; n < p->nodes; n++)
+    if (p->node[n].contact)
+      pass(a, p->node[n].node, sizeof p->node[n].node);
+}
+
+static void pass_planes(struct model *m, struct archive *a)
+{
+  struct planes *ps = &m->planes;
+  if (a->from != NULL && !a->failed)
+    a->failed = planes_find(m) != GAMUT_OK;
+  for (size_t i = 0; i < ps->count && !a->failed; i++) {
+    pass(a, ps->plane[i]->reaction, sizeof *ps->plane[i]->reaction);
+    pass(a, &ps->plane[i]->area, sizeof ps->plane[i]->area);
+    pass_held(m, ps->plane[i], a);
+  }
+}
+
+static void pass_model(struct model *m, struct archive *a)
+{
+  pass_layout(m, a);
+  pass(a, &m->moved, sizeof m->moved);
+  pass(a, &m->omega_squared, sizeof m->omega_squared);
+  pass(a, &m->last_step, sizeof m->last_step);
+  pass(a, &m->taken, sizeof m->taken);
+  pass(a, &m->nodes, sizeof m->nodes);
+  pass(a, m->ledger.now, sizeof m->ledger.now);
+  pass(a, m->grid.origin, sizeof m->grid.origin);
+  pass(a, &m->grid.empty, sizeof m->grid.empty);
+  pass_grid(m, a);
+  if (a->from != NULL && !a->failed)
+    room_for_sums(m, a);
+  if (a->failed)
+    return;
+  pass(a, m->block_sum, m->grid.sources * POINT_SUMS * sizeof *m->block_sum);
+  pass(a, m->block_omega, m->grid.sources * sizeof *m->block_omega);
+  pass_planes(m, a);
+}
+
+size_t model_save(const void *self, void *bytes)
+{
+  struct archive a = {.to = bytes};
+  pass_model((struct model *)(size_t)self, &a);
+  return a.at;
+}
+
+gamut_status model_restore(void *self, const void *bytes, size_t size)
+{
+  struct model *m = self;
+  struct archive a = {.from = bytes, .size = size};
+  pass_model(m, &a);
+  m->collected = false;
+  if (!a.failed && a.at == size)
+    return GAMUT_OK;
+  return gamut_fail(m->run, GAMUT_OUTPUT,
+                    "the state of the grid in the checkpoint does not fit this solver");
+}
