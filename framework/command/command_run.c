@@ -8,6 +8,7 @@
 #include "command/scene_arguments.h"
 #include "report/report.h"
 #include "run/run.h"
+#include "store/file.h"
 #include "store/store.h"
 
 /* Which signal asked for the end of the run; a handler may touch nothing else. */
@@ -83,18 +84,50 @@ static void say_means(struct command *command, const struct scene *scene)
                count, count == 1 ? " is" : "s are", count == 1 ? "its" : "their");
 }
 
+static void say_how_to_go_on(struct command *command, const struct run_arguments *arguments,
+                             const char *unit, double time)
+{
+  trace_note(command->trace,
+             "stopped at %.6g %s: 'gamut run %s -o %s --resume'%s goes on from there", time,
+             unit ? unit : "s", arguments->file, arguments->folder,
+             arguments->set.count ? ", with the same --set," : "");
+}
+
+/* The summary that stands there goes out again, so that a script finds what it looks for. */
+static gamut_status say_finished(struct command *command, const struct run_arguments *arguments)
+{
+  trace_note(command->trace, "the run in '%s' is at its end: there is nothing to do",
+             arguments->folder);
+  if (!arguments->json)
+    return GAMUT_OK;
+  char *path = file_path(arguments->folder, "summary.json"), piece[4096];
+  FILE *file = path ? fopen(path, "r") : NULL;
+  for (size_t got; file && (got = fread(piece, 1, sizeof piece, file)) > 0;)
+    fwrite(piece, 1, got, stdout);
+  if (!file)
+    trace_fail(command->trace, GAMUT_OUTPUT, "cannot read the summary in '%s'", arguments->folder);
+  else
+    fclose(file);
+  putchar('\n');
+  free(path);
+  return file ? GAMUT_OK : GAMUT_OUTPUT;
+}
+
 static gamut_status run_scene(struct command *command, const struct run_arguments *arguments,
-                              struct scene *scene)
+                              struct scene *scene, bool *kept)
 {
   gamut_status status = GAMUT_OK, marched;
   struct gamut_run *run = NULL;
   struct store *store = NULL;
   struct progress *progress = NULL;
+  bool finished = false;
   struct run_options options = {
       .threads = arguments->threads, .stop = &interrupted, .seed = scene->seed};
-  if (arguments->resume || arguments->retry_failed) {
-    status = usage_fail(command, "--resume goes on with a study: this scene has no "
-                                 "uncertainty.estimator");
+  if (arguments->retry_failed || (arguments->resume && arguments->force)) {
+    status = usage_fail(command, arguments->retry_failed
+                                     ? "--retry-failed is for studies: this scene has no "
+                                       "uncertainty.estimator"
+                                     : "--resume goes on with a result, --force replaces it");
     goto done;
   }
   if (!scene->solver.descriptor) {
@@ -103,15 +136,27 @@ static gamut_status run_scene(struct command *command, const struct run_argument
                    "%s has no solver: it is a card for other scenes, not a run", arguments->file);
     goto done;
   }
+  if (arguments->resume) {
+    TRY(run_finished(scene, arguments->folder, command->trace, &finished));
+    if (finished) {
+      status = say_finished(command, arguments);
+      goto done;
+    }
+  }
   say_means(command, scene);
   progress = make_progress(scene);
   options.progress = progress_tell;
   options.progress_self = progress;
   TRY(run_new(scene, command->registry, &options, command->trace, &run));
-  status = run_start(run, command->trace);
-  if (status == GAMUT_SCENE)
-    goto done;
-  TRY(store_open(arguments->folder, arguments->force, command->trace, &store));
+  /* A batch job says --resume each time, also the first. */
+  if (arguments->resume && store_there(arguments->folder)) {
+    TRY(run_resume(run, arguments->folder, command->trace, &store));
+  } else {
+    status = run_start(run, command->trace);
+    if (status == GAMUT_SCENE)
+      goto done;
+    TRY(store_open(arguments->folder, arguments->force, command->trace, &store));
+  }
   run_record(run, store);
   TRY(store_scene(store, scene->tree, command->trace));
   trace_print(command->trace, stderr);
@@ -123,6 +168,9 @@ static gamut_status run_scene(struct command *command, const struct run_argument
   status = write_results(run, store, marched, arguments, command);
   if (marched != GAMUT_OK)
     status = marched;
+  *kept = marched == GAMUT_STOPPED && run_can_stop(run);
+  if (*kept)
+    say_how_to_go_on(command, arguments, scene->solver.descriptor->axis_unit, run_time(run));
 done:
   progress_free(progress);
   run_free(run);
@@ -163,8 +211,9 @@ gamut_status command_run(struct command *command)
     catch_signals();
     status = run_study(command, &arguments, scene);
   } else {
-    status = run_scene(command, &arguments, scene);
-    if (status == GAMUT_STOPPED && interrupted)
+    bool kept = false;
+    status = run_scene(command, &arguments, scene, &kept);
+    if (status == GAMUT_STOPPED && interrupted && !kept)
       status = end_by_signal(command);
   }
 done:

@@ -22,7 +22,8 @@ static const struct details {
      "  -o DIR             folder of the results (default: the scene's name with -results)\n"
      "  --set path=value   overrides a value of the scene, e.g. --set 'solver.cell=0.2 mm'\n"
      "  --threads N        threads (default: OMP_NUM_THREADS, or all cores)\n"
-     "  --resume           goes on with a study that was stopped: repeats no finished run\n"
+     "  --resume           goes on from the last checkpoint in DIR, to the same bits; of a study:\n"
+     "                     repeats no finished run. Only solver.end and outputs may differ\n"
      "  --retry-failed     as --resume, and makes the runs again that failed\n"
      "  --force            replaces a result that is already there\n"
      "  --json             prints the summary as JSON\n"
@@ -32,8 +33,9 @@ static const struct details {
      "each finished one is kept in study.log, and study.csv has a row a run. Ctrl-C or a TERM\n"
      "signal stops it with exit code 75; --resume goes on.\n"
      "When the numbers fail the last state is written and the exit code is 5. On Ctrl-C or a\n"
-     "TERM signal the step is finished, the last state and the summary are written with\n"
-     "\"status\": \"interrupted\", and gamut ends by that signal (130 or 143 in a shell).\n"},
+     "TERM signal the step is finished, the results so far (\"status\": \"interrupted\") and a\n"
+     "checkpoint are written, and the exit code is 75. outputs.checkpoint in the scene leaves one\n"
+     "every so often: {every: 10 us} of the run, or 10 min by the clock.\n"},
     {"check", "Prints every mistake with its place. Opens no plugin and writes nothing.\n"
               "\n"
               "  --set path=value   overrides a value of the scene\n"},

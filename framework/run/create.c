@@ -97,6 +97,11 @@ static gamut_status create_solver(struct gamut_run *run)
   TRY(declare_outputs(run));
   TRY(ops->create(run, instance->values, &run->solver_self));
   run->solver = ops;
+  if ((run->scene->checkpoint_every > 0.0 || run->scene->checkpoint_wall > 0.0) &&
+      !run_can_stop(run))
+    status = trace_fail_at(run->trace, GAMUT_SCENE, NULL, "outputs.checkpoint", "leave it out",
+                           "%s has no `save`: its runs leave no checkpoints",
+                           instance->descriptor->id);
 done:
   return status;
 }

@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -243,14 +244,25 @@ gamut_status frames_write(struct gamut_run *run)
   return status;
 }
 
-gamut_status frames_due(struct gamut_run *run)
+static double frame_every(const struct gamut_run *run)
 {
   double every = run->scene->output_every;
-  if (every == 0.0 || !run->store)
-    return GAMUT_OK;
-  if (every < 0.0)
-    every = run->end / -every;
-  if (!(every > 0.0))
+  return every < 0.0 ? run->end / -every : every;
+}
+
+/* Frames are counted by time, so that others than before may be wanted after a restart. */
+void frames_go_on(struct gamut_run *run)
+{
+  double every = frame_every(run);
+  run->frame = every > 0.0 ? (size_t)floor(run->time * (1.0 + 1e-12) / every) : 0;
+  while (every > 0.0 && run->time * (1.0 + 1e-12) >= (double)(run->frame + 1) * every)
+    run->frame++;
+}
+
+gamut_status frames_due(struct gamut_run *run)
+{
+  double every = frame_every(run);
+  if (!(every > 0.0) || !run->store)
     return GAMUT_OK;
   if (run->time * (1.0 + 1e-12) < (double)(run->frame + 1) * every)
     return GAMUT_OK;

@@ -107,7 +107,10 @@ struct gamut_run {
   double next_frame;
   size_t frame;
   double wall, cpu;
-  bool started;
+  uint64_t checkpoint;    /* of `outputs.checkpoint.every`: how many have been due */
+  double checkpoint_wall; /* when the last one was written */
+  uint64_t steps_before;  /* taken before the checkpoint that the run goes on from */
+  bool started, resumed;
   gamut_status start; /* what came of it */
 };
 
@@ -164,7 +167,13 @@ gamut_status frames_create(struct gamut_run *);
 gamut_status frames_write(struct gamut_run *);
 /* Writes a frame if one is due by the present time. */
 gamut_status frames_due(struct gamut_run *);
+void frames_go_on(struct gamut_run *); /* after a restart */
 void frames_free(struct gamut_run *);
+
+/* checkpoint.c */
+gamut_status checkpoint_write(struct gamut_run *);
+void checkpoint_start(struct gamut_run *); /* the clocks of `outputs.checkpoint` */
+gamut_status checkpoint_due(struct gamut_run *);
 
 /* ledger.c */
 gamut_status ledger_open(struct gamut_run *, const char *account, const char *name,

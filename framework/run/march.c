@@ -117,7 +117,8 @@ static void tell_progress(const struct gamut_run *run, double since)
   if (!run->options.progress)
     return;
   double done = run->end > 0.0 ? run->time / run->end : 0.0;
-  double rate = since > 0.0 ? (double)run->steps * (double)count_points(run) / since : 0.0;
+  double work = (double)(run->steps - run->steps_before) * (double)count_points(run);
+  double rate = since > 0.0 ? work / since : 0.0;
   run->options.progress(run->options.progress_self, done, run->time, run->steps, rate);
 }
 
@@ -132,10 +133,14 @@ static gamut_status march_all(struct gamut_run *run)
       told = now;
       tell_progress(run, now - begun);
     }
-    if (run->options.stop && *run->options.stop) {
+    if (more && run->options.stop && *run->options.stop) {
+      if (run->store && run_can_stop(run))
+        TRY(checkpoint_write(run));
       status = GAMUT_STOPPED;
       goto done;
     }
+    if (more)
+      TRY(checkpoint_due(run));
   }
 done:
   return status;
@@ -147,7 +152,9 @@ gamut_status run_march(struct gamut_run *run, struct trace *trace)
   double wall = clock_now(CLOCK_MONOTONIC), cpu = clock_now(CLOCK_PROCESS_CPUTIME_ID);
   run->trace = trace;
   TRY(march_start(run));
-  TRY(frames_write(run));
+  if (!run->resumed)
+    TRY(frames_write(run));
+  checkpoint_start(run);
   TRY(march_all(run));
 done:
   run->wall = clock_now(CLOCK_MONOTONIC) - wall;

@@ -20,9 +20,9 @@ struct run_options {
    * silent. */
   void (*progress)(void *, double done, double time, uint64_t step, double rate);
   void *progress_self;
-  /* Null, or becomes nonzero when the user wants out: the step is finished, the last frame is
-   * written and run_march returns GAMUT_STOPPED without an error in the trace; the summary then
-   * says "status": "interrupted". */
+  /* Null, or becomes nonzero when the user wants out: the step is finished, a checkpoint (where a
+   * store is open and run_can_stop) and the last frame are written, and run_march returns
+   * GAMUT_STOPPED without an error in the trace; the summary then says "status": "interrupted". */
   const volatile sig_atomic_t *stop;
   /* What chance in the run hangs on: the scene's seed (0: as scene->seed), and which run of a study
    * this is, from 0. */
@@ -40,6 +40,17 @@ void run_record(struct gamut_run *, struct store *);
 /* The initial state, unless it stands already; run_march does it where nobody did. What only the
  * solver can see of a scene's faults shows here, before a store is opened. */
 gamut_status run_start(struct gamut_run *, struct trace *);
+/* Whether the solver can save its state: the run leaves checkpoints in the folder of its store,
+ * when it is stopped and as often as outputs.checkpoint says. Runs without a store, as those of a
+ * study, never do. */
+bool run_can_stop(const struct gamut_run *);
+/* In place of run_start: goes on from the last whole checkpoint in FOLDER, to the same bits as a
+ * run that was never stopped, with any number of threads. *store is the folder's result without
+ * later frames, for run_record. Another scene is refused with GAMUT_SCENE (only solver.end and
+ * outputs may differ), another interface or version of a plugin with GAMUT_PLUGIN, by name. */
+gamut_status run_resume(struct gamut_run *, const char *folder, struct trace *, struct store **);
+/* Whether FOLDER holds the whole run of this scene, up to its end. Another scene is refused. */
+gamut_status run_finished(const struct scene *, const char *folder, struct trace *, bool *finished);
 /* From start to end of the axis. On a failure the last state is written as a frame where a store is
  * open. */
 gamut_status run_march(struct gamut_run *, struct trace *);

@@ -146,7 +146,7 @@ void run_warn(const struct gamut_run *run, struct trace *trace)
 static json_t *cost_json(const struct gamut_run *run)
 {
   struct run_cost cost = run_cost_of(run);
-  double work = (double)cost.points * (double)cost.steps;
+  double work = (double)cost.points * (double)(cost.steps - run->steps_before);
   json_t *entry = json_object();
   json_object_set_new(entry, "points", json_integer((json_int_t)cost.points));
   json_object_set_new(entry, "steps", json_integer((json_int_t)cost.steps));

@@ -79,15 +79,35 @@ static void blame_field(struct reading *reading, const struct tree *node)
   free(name);
 }
 
+/* By wall time, or {every: 10 us} of the run. */
+static void checkpoint_read(struct reading *reading, const struct tree *node)
+{
+  static const char *const known[] = {"every"};
+  bool run = node->kind == TREE_MAPPING;
+  const struct tree *given = run ? tree_get(node, "every") : node;
+  double *value = run ? &reading->scene->checkpoint_every : &reading->scene->checkpoint_wall;
+  if (run)
+    expect_keys(reading, node, known, COUNT_OF(known), "'checkpoint'");
+  if (!given)
+    blame_value(reading, node, "such as {every: 10 us}, or a wall time: 10 min",
+                "'checkpoint' is empty");
+  else if (amount_read(reading, given, "checkpoint", run ? axis_unit(reading) : "s", value) &&
+           !(*value > 0))
+    blame_value(reading, given, "greater than 0", "'checkpoint' is not positive");
+}
+
 void outputs_read(struct reading *reading, const struct tree *root)
 {
-  static const char *const known[] = {"every", "frames", "fields"};
+  static const char *const known[] = {"every", "frames", "fields", "checkpoint"};
   struct scene *scene = reading->scene;
   const struct tree *node = tree_get(root, "outputs");
   if (!node || !expect_mapping(reading, node, "'outputs'"))
     return;
   expect_keys(reading, node, known, COUNT_OF(known), "'outputs'");
   frames_read(reading, node);
+  const struct tree *checkpoint = tree_get(node, "checkpoint");
+  if (checkpoint)
+    checkpoint_read(reading, checkpoint);
   const struct tree *fields = tree_get(node, "fields");
   if (!fields)
     return;

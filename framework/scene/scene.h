@@ -11,7 +11,9 @@
  *                                           velocity: vector with units, or [expression strings of
  * x, y, z in SI metres]; further keys: body_parameters of the solver effects: {NAME: {model:,
  * enabled: auto|on|off, bodies: [..], materials: [..], ...}} quantities: {NAME: {measure:,
- * ARGUMENTS, body:, at:, reduce:, every:}} outputs: {every: 5 us, fields: [..]}    or {frames: 20}
+ * ARGUMENTS, body:, at:, reduce:, every:}} outputs: {every: 5 us, fields: [..], checkpoint: 10 min}
+ *                                           or {frames: 20}; checkpoint: wall time, or
+ *                                           {every: 10 us}
  *   uncertainty: {estimator: {model:, ...}, seed:, correlation: [[path, path, number], ..],
  * failures: share}                        see study/study.h
  *
@@ -208,6 +210,7 @@ struct scene {
   struct quantity *quantity;
   size_t quantities;
   double output_every; /* 0: none; <0: -frames */
+  double checkpoint_wall, checkpoint_every; /* s of wall time, axis; 0: at signals only */
   const char **output_field;
   size_t output_fields;
   bool random; /* some parameter is random */

@@ -284,9 +284,13 @@ static json_t *definitions(const struct registry *registry)
 
 void schema_write(const struct registry *registry, FILE *file)
 {
-  json_t *outputs = object(json_pack("{s:o, s:{s:s}, s:o}", "every", reference("quantity"),
-                                     "frames", "type", "integer", "fields", reference("names")),
-                           true);
+  json_t *checkpoint =
+      json_pack("{s:[o, o]}", "anyOf", reference("quantity"),
+                object(json_pack("{s:o}", "every", reference("quantity")), true));
+  json_t *outputs =
+      object(json_pack("{s:o, s:{s:s}, s:o, s:o}", "every", reference("quantity"), "frames", "type",
+                       "integer", "fields", reference("names"), "checkpoint", checkpoint),
+             true);
   json_t *uncertainty =
       object(json_pack("{s:o, s:{s:s}, s:{s:s}, s:{s:s}}", "estimator",
                        plugin_schema(registry, GAMUT_KIND_ESTIMATOR, NULL), "correlation", "type",

@@ -175,9 +175,9 @@ def failures(folder):
 
 def without(folder):
     scene = write(folder, "plain.yaml", DRIVER)
-    answer = gamut("run", scene, "-o", os.path.join(folder, "plain"), "--resume")
+    answer = gamut("run", scene, "-o", os.path.join(folder, "plain"), "--retry-failed")
     report(answer.code == 2 and "uncertainty.estimator" in answer.said,
-           "--resume of a scene that is no study: exit 2", answer)
+           "--retry-failed of a scene that is no study: exit 2", answer)
 
 
 with tempfile.TemporaryDirectory() as scratch:

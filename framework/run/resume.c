@@ -1,0 +1,313 @@
+/* Makes a run that has just started go on from a checkpoint. */
+#include <jansson.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "run/restart.h"
+#include "store/checkpoint.h"
+#include "store/file.h"
+
+struct reading_back {
+  struct gamut_run *run;
+  const struct checkpoint *file;
+  const char *folder;
+};
+
+static gamut_status fill(const struct reading_back *r, const char *path, enum checkpoint_kind kind,
+                         void *data, size_t count)
+{
+  return checkpoint_fill(r->file, path, kind, data, count, r->run->trace);
+}
+
+static gamut_status get(const struct reading_back *r, const char *path, enum checkpoint_kind kind,
+                        void **data, size_t *count)
+{
+  return checkpoint_get(r->file, path, kind, data, count, r->run->trace);
+}
+
+static gamut_status check_scene(const struct reading_back *r)
+{
+  gamut_status status;
+  void *text = NULL, *plugins = NULL;
+  struct tree *was = NULL;
+  size_t size;
+  TRY(get(r, "scene", CHECKPOINT_BYTES, &text, &size));
+  TRY(tree_parse(text, size, CHECKPOINT_FILE, GAMUT_OUTPUT, r->run->trace, &was));
+  TRY(restart_same_scene(was, r->run->scene->tree, r->folder, r->run->trace));
+  TRY(get(r, "plugins", CHECKPOINT_BYTES, &plugins, &size));
+  TRY(restart_same_plugins(r->run, plugins, r->folder));
+done:
+  tree_free(was);
+  free(text);
+  free(plugins);
+  return status;
+}
+
+static gamut_status get_clock(const struct reading_back *r, struct store_place *place)
+{
+  gamut_status status;
+  struct gamut_run *run = r->run;
+  double real[RESTART_REALS];
+  int64_t whole[RESTART_WHOLES];
+  void *xdmf;
+  size_t size;
+  TRY(fill(r, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
+  TRY(fill(r, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
+  if (run->end > 0.0 && run->end < real[0]) {
+    status = trace_fail_at(run->trace, GAMUT_SCENE, NULL, "solver.end",
+                           "a later end, or --force to run the scene anew",
+                           "the run in '%s' has come to %g already, beyond the end at %g",
+                           r->folder, real[0], run->end);
+    goto done;
+  }
+  TRY(get(r, "frames", CHECKPOINT_BYTES, &xdmf, &size));
+  run->time = real[0];
+  run->step = real[1];
+  run->steps = run->steps_before = (uint64_t)whole[0];
+  *place = (struct store_place){.frames = (size_t)whole[1],
+                                .last_time = real[2],
+                                .last_step = (uint64_t)whole[2],
+                                .xdmf = xdmf};
+done:
+  return status;
+}
+
+static gamut_status get_ledger(const struct reading_back *r)
+{
+  size_t lines = r->run->lines;
+  double *value = calloc(2 * lines + 1, sizeof *value);
+  if (!value)
+    return trace_fail(r->run->trace, GAMUT_INTERNAL, "out of memory");
+  gamut_status status = fill(r, "ledger", CHECKPOINT_REAL, value, 2 * lines);
+  for (size_t i = 0; i < lines && status == GAMUT_OK; i++) {
+    r->run->ledger[i].start = value[2 * i];
+    r->run->ledger[i].value = *r->run->line_value[i] = value[2 * i + 1];
+  }
+  free(value);
+  return status;
+}
+
+static gamut_status get_history(const struct reading_back *r, struct history *h)
+{
+  gamut_status status;
+  char path[RESTART_PATH];
+  const char *name = h->quantity->name;
+  void *time = NULL, *value = NULL;
+  size_t times, values;
+  double last[4];
+  TRY(fill(r, restart_path(path, "quantities", name, "last"), CHECKPOINT_REAL, last, 4));
+  TRY(get(r, restart_path(path, "quantities", name, "axis"), CHECKPOINT_REAL, &time, &times));
+  TRY(get(r, restart_path(path, "quantities", name, "value"), CHECKPOINT_REAL, &value, &values));
+  if (times != values || !history_go_on(h, r->run->end, last[0], time, value, times))
+    status = trace_fail(r->run->trace, GAMUT_INTERNAL, "out of memory for the curve '%s'", name);
+  h->last_time = last[1];
+  h->last_value = last[2];
+  h->has_last = last[3] != 0.0;
+done:
+  free(time);
+  free(value);
+  return status;
+}
+
+/* A field that is kept now but was not then is one that a step writes before anybody reads it; but
+ * a state would be lost. */
+static gamut_status get_component(const struct reading_back *r, const struct point_set *set,
+                                  const struct field *field, unsigned component, double *array)
+{
+  char path[RESTART_PATH], name[RESTART_PATH];
+  restart_path(path, "bodies", set->open.body, restart_component(name, field, component));
+  if (checkpoint_has(r->file, path))
+    return fill(r, path, CHECKPOINT_REAL, array, set->open.slots);
+  if (!field->history)
+    return GAMUT_OK;
+  return trace_fail_at(
+      r->run->trace, GAMUT_SCENE, NULL, "outputs", "leave it out, or --force to run the scene anew",
+      "'%s' is asked for now; it was not worked out in the run in '%s'", field->name, r->folder);
+}
+
+static gamut_status shape_set(const struct reading_back *r, struct point_set *set)
+{
+  gamut_status status;
+  char path[RESTART_PATH];
+  const char *body = set->open.body;
+  int64_t points;
+  void *id = NULL, *place = NULL;
+  size_t slots, places, *first = NULL;
+  TRY(fill(r, restart_path(path, "bodies", body, "points"), CHECKPOINT_WHOLE, &points, 1));
+  TRY(get(r, restart_path(path, "bodies", body, "id"), CHECKPOINT_WHOLE, &id, &slots));
+  TRY(get(r, restart_path(path, "bodies", body, "blocks"), CHECKPOINT_WHOLE, &place, &places));
+  first = calloc(places + 1, sizeof *first);
+  if (!first || places == 0) {
+    status = trace_fail(r->run->trace, GAMUT_INTERNAL, "no blocks of body '%s'", body);
+    goto done;
+  }
+  for (size_t b = 0; b < places; b++)
+    first[b] = (size_t)((int64_t *)place)[b];
+  TRY(set_reshape(set, (size_t)points, id, slots, first, places - 1, r->run->trace));
+done:
+  free(id);
+  free(place);
+  free(first);
+  return status;
+}
+
+static gamut_status get_set(const struct reading_back *r, struct point_set *set)
+{
+  gamut_status status;
+  TRY(shape_set(r, set));
+  for (size_t f = 0; f < fields_count(r->run->fields); f++) {
+    const struct field *field = fields_at(r->run->fields, f);
+    for (unsigned k = 0; k < field->handle.components; k++) {
+      double *array = set_stored(set, field->handle, k);
+      if (array)
+        TRY(get_component(r, set, field, k, array));
+    }
+  }
+done:
+  return status;
+}
+
+static gamut_status get_materials(const struct reading_back *r)
+{
+  gamut_status status = GAMUT_OK;
+  char path[RESTART_PATH];
+  struct gamut_run *run = r->run;
+  for (size_t m = 0; m < run->scene->materials; m++) {
+    int64_t count[MATERIAL_COUNTS];
+    double factor;
+    const char *name = run->scene->material[m].name;
+    if (!run->material[m])
+      continue;
+    TRY(fill(r, restart_path(path, "materials", name, "step_factor"), CHECKPOINT_REAL, &factor, 1));
+    TRY(fill(r, restart_path(path, "materials", name, "flags"), CHECKPOINT_WHOLE, count,
+             MATERIAL_COUNTS));
+    material_step_factor(run->material[m]);
+    material_step_factor_keep(run->material[m], factor);
+    material_go_on(run->material[m], count);
+  }
+done:
+  return status;
+}
+
+static gamut_status get_state(const struct reading_back *r, const char *path, void *self,
+                              gamut_status (*restore)(void *, const void *, size_t))
+{
+  void *bytes;
+  size_t size;
+  gamut_status status = get(r, path, CHECKPOINT_BYTES, &bytes, &size);
+  if (status != GAMUT_OK)
+    return status;
+  status = restore(self, bytes, size);
+  if (status != GAMUT_OK && trace_errors(r->run->trace) == 0)
+    trace_fail(r->run->trace, status, "'%s' of the checkpoint in '%s' does not fit", path,
+               r->folder);
+  free(bytes);
+  return status;
+}
+
+static gamut_status get_effects(const struct reading_back *r)
+{
+  gamut_status status = GAMUT_OK;
+  char path[RESTART_PATH];
+  for (size_t e = 0; e < r->run->effects; e++) {
+    const struct running_effect *effect = &r->run->effect[e];
+    const char *name = effect->effect->instance.name;
+    int64_t count[FLAG_COUNTS];
+    if (effect->bound) {
+      TRY(fill(r, restart_path(path, "effects", name, "flags"), CHECKPOINT_WHOLE, count,
+               FLAG_COUNTS));
+      effect_go_on(effect->bound, count);
+    }
+    if (effect->ops->save && effect->ops->restore)
+      TRY(get_state(r, restart_path(path, "effects", name, "state"), effect->self,
+                    effect->ops->restore));
+  }
+done:
+  return status;
+}
+
+static gamut_status get_all(const struct reading_back *r)
+{
+  gamut_status status;
+  struct gamut_run *run = r->run;
+  TRY(get_ledger(r));
+  for (size_t i = 0; i < run->probes; i++)
+    TRY(get_history(r, run->history[i]));
+  for (size_t s = 0; s < run->scene->bodies; s++)
+    TRY(get_set(r, run->set[s]));
+  TRY(get_materials(r));
+  TRY(get_effects(r));
+  TRY(get_state(r, "solver", run->solver_self, run->solver->restore));
+done:
+  return status;
+}
+
+gamut_status run_resume(struct gamut_run *run, const char *folder, struct trace *trace,
+                        struct store **store)
+{
+  gamut_status status;
+  struct checkpoint *file = NULL;
+  struct store_place place = {0};
+  run->trace = trace;
+  *store = NULL;
+  if (!run_can_stop(run))
+    return trace_fail(trace, GAMUT_PLUGIN, "%s cannot go on with a run: it has no `restore`",
+                      run->scene->solver.descriptor->id);
+  TRY(checkpoint_open(folder, trace, &file));
+  if (!file) {
+    status = trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL,
+                           "--force runs the scene anew; outputs.checkpoint leaves checkpoints on "
+                           "the way",
+                           "'%s' holds a result, but no checkpoint to go on from", folder);
+    goto done;
+  }
+  const struct reading_back r = {run, file, folder};
+  TRY(check_scene(&r));
+  TRY(run_start(run, trace));
+  TRY(get_clock(&r, &place));
+  TRY(get_all(&r));
+  run->resumed = true;
+  frames_go_on(run);
+  TRY(store_reopen(folder, &place, trace, store));
+done:
+  free((char *)(size_t)place.xdmf);
+  checkpoint_close(file);
+  return status;
+}
+
+/* ---- a run that is at its end ------------------------------------------------------------------
+ */
+
+static bool says_done(const char *folder)
+{
+  char *path = file_path(folder, "summary.json");
+  json_t *summary = path ? json_load_file(path, 0, NULL) : NULL;
+  const char *ending = json_string_value(json_object_get(summary, "status"));
+  bool done = ending && strcmp(ending, "done") == 0;
+  json_decref(summary);
+  free(path);
+  return done;
+}
+
+gamut_status run_finished(const struct scene *scene, const char *folder, struct trace *trace,
+                          bool *finished)
+{
+  gamut_status status = GAMUT_OK;
+  struct tree *was = NULL;
+  char *path = NULL;
+  *finished = false;
+  if (!says_done(folder))
+    return GAMUT_OK;
+  path = file_path(folder, "scene.yaml");
+  if (!path || !file_exists(path))
+    goto done;
+  TRY(tree_read(path, GAMUT_OUTPUT, trace, &was));
+  TRY(restart_same_scene(was, scene->tree, folder, trace));
+  const struct tree *before = tree_at(was, "solver.end"), *now = tree_at(scene->tree, "solver.end");
+  *finished = !before || !now ? before == now : strcmp(before->text, now->text) == 0;
+done:
+  tree_free(was);
+  free(path);
+  return status;
+}
