@@ -95,8 +95,8 @@ FRAME = (
     ("Outputs", ("outputs",), (
         ("every", "s", "Time between frames."),
         ("frames", "whole number", "How many frames, in place of `every`."),
-        ("checkpoint", "wall time, or {every: s}", "How often to leave a checkpoint; else at signals "
-         "only."),
+        ("checkpoint", "wall time, or {every: s}",
+         "How often to leave a checkpoint; else at signals only."),
         ("fields", "list of names", "Fields and measures of points to write."))),
     ("Uncertainty", ("uncertainty",), (
         ("estimator", "plugin", "`model` names it."),

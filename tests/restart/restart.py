@@ -148,6 +148,23 @@ def longer(folder, cut):
     report(answer.code == 0 and "nothing to do" in answer.said, "and then nothing to do", answer)
 
 
+def effects(folder):
+    """Walls that move and rub, and forces on points, keep a state of their own in the solver."""
+    for number, more in enumerate((
+            ["effects.wall.velocity=[0 m/s, 20 m/s]", "effects.wall.friction=0.3"],
+            ["effects.wall.velocity=[0 m/s, 20 m/s]", "solver.shape=linear"],
+            ["effects.pull={model: gravity, acceleration: [0 m/s2, -1e6 m/s2]}"])):
+        one, two = (os.path.join(folder, f"effects-{number}-{name}") for name in ("whole", "cut"))
+        settings = [*SHOT, *more]
+        good = run(SCENE, one, settings).code == 0
+        good &= run(SCENE, two, [*settings, "outputs.checkpoint={every: 11 us}"]).code == 0
+        if good:
+            forget_the_end(two)
+        answer = run(SCENE, two, settings, "--resume", threads=2)
+        wrong = differences(one, two) if answer.code == 0 else ["it failed"]
+        report(good and not wrong, f"{', '.join(more)}: the same bits {wrong[:5]}", answer)
+
+
 with tempfile.TemporaryDirectory() as scratch:
     whole, cut = os.path.join(scratch, "whole"), os.path.join(scratch, "cut")
     answer = run(SCENE, whole, SHOT)
@@ -157,6 +174,7 @@ with tempfile.TemporaryDirectory() as scratch:
     report(answer.code == 0 and not differences(whole, cut), "checkpoints change no bit", answer)
     longer(scratch, cut)
     forget_the_end(cut)
+    effects(scratch)
     stopped(scratch, whole)
     killed(scratch, whole)
     damaged(scratch, whole, cut)
