@@ -10,7 +10,7 @@
 /* No sound is faster; it bounds the first step, before the material was asked for its own. */
 static const double fastest_sound = 1e5;
 /* Points may move so far, in cells, before they are sorted. */
-static const double sort_after = 0.3, sort_before = 0.9;
+static const double sort_after = 0.5, sort_before = 0.9;
 static const double growth = 1.1;
 
 /* The value of a stored field, zero where the scene does not store it. */
