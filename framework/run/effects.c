@@ -1,6 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "field/vocabulary.h"
 #include "run/inside.h"
 
 static gamut_status make_kernels(struct gamut_run *run, struct running_effect *effect)
@@ -62,6 +63,23 @@ done:
   return status;
 }
 
+/* States of an effect whose tasks are its own; those of kernels are declared with them. */
+static gamut_status declare_states(struct gamut_run *run, const struct descriptor *d)
+{
+  for (size_t i = 0; i < d->states && d->tasks == 0; i++) {
+    const struct state_variable *state = &d->state[i];
+    if (vocabulary_find(state->name))
+      continue;
+    struct field *field = fields_add(run->fields, state->name, GAMUT_AT_POINT, state->components,
+                                     state->unit, state->doc ? state->doc : "", run->trace);
+    if (!field)
+      return GAMUT_PLUGIN;
+    field->history = true;
+    field->initial = state->initial;
+  }
+  return GAMUT_OK;
+}
+
 static gamut_status create_one(struct gamut_run *run, const struct effect *from)
 {
   gamut_status status;
@@ -76,6 +94,7 @@ static gamut_status create_one(struct gamut_run *run, const struct effect *from)
   run->effects++;
   TRY(registry_open(run->registry, from->instance.descriptor, run->trace, &plugin));
   effect->ops = plugin->ops;
+  TRY(declare_states(run, from->instance.descriptor));
   run->creating = effect;
   if (effect->ops->create)
     TRY(effect->ops->create(run, from->instance.values, &effect->self));

@@ -304,4 +304,7 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .domain = host_domain,
                                     .note = host_note,
                                     .law_places = host_law_places,
-                                    .body_points = host_body_points};
+                                    .body_points = host_body_points,
+                                    .formula = host_formula,
+                                    .formula_value = host_formula_value,
+                                    .formula_uses = host_formula_uses};

@@ -10,6 +10,10 @@ long host_integer(const struct gamut_values *, const char *path);
 bool host_boolean(const struct gamut_values *, const char *path);
 const char *host_text(const struct gamut_values *, const char *path);
 const double *host_vector(const struct gamut_values *, const char *path, size_t *count);
+gamut_status host_formula(struct gamut_run *, const struct gamut_values *, const char *path,
+                          struct gamut_formula **);
+double host_formula_value(const struct gamut_formula *, int thread, const double *variable);
+bool host_formula_uses(const struct gamut_formula *, size_t variable);
 const double *host_table(const struct gamut_values *, const char *path, size_t *rows);
 
 gamut_status host_law(struct gamut_run *, const struct gamut_body *, const char *kind, size_t count,

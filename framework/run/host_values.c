@@ -57,3 +57,51 @@ const double *host_table(const struct gamut_values *values, const char *path, si
                                                       : 0;
   return value->number;
 }
+
+/* A formula is the value that holds it, with one copy a thread. */
+static const struct value *value_of(const struct gamut_formula *formula)
+{
+  return (const struct value *)(const void *)formula;
+}
+
+static bool copy_formula(struct value *value, size_t threads, char *why, size_t size)
+{
+  const struct tree *text = value->node ? value->node : value->parameter->standard;
+  struct expression **more = realloc(value->each, threads * sizeof(*more));
+  if (!more)
+    return false;
+  value->each = more;
+  while (value->copies < threads) {
+    struct expression *copy = expression_new(text->text, value->parameter->choice,
+                                             value->parameter->choices, why, size);
+    if (!copy)
+      return false;
+    value->each[value->copies++] = copy;
+  }
+  return true;
+}
+
+gamut_status host_formula(struct gamut_run *run, const struct gamut_values *values,
+                          const char *path, struct gamut_formula **formula)
+{
+  char why[256] = "out of memory";
+  /* The values belong to the run: what is const to plugins is not to it. */
+  struct value *value = (struct value *)(uintptr_t)demand(values, path, 1u << VALUE_EXPRESSION);
+  *formula = NULL;
+  if (!value->expression)
+    return GAMUT_OK;
+  if (!copy_formula(value, (size_t)run->threads, why, sizeof why))
+    return trace_fail(run->trace, GAMUT_INTERNAL, "'%s': %s", path, why);
+  *formula = (struct gamut_formula *)(void *)value;
+  return GAMUT_OK;
+}
+
+double host_formula_value(const struct gamut_formula *formula, int thread, const double *variable)
+{
+  return expression_value(value_of(formula)->each[thread], variable);
+}
+
+bool host_formula_uses(const struct gamut_formula *formula, size_t variable)
+{
+  return expression_uses(value_of(formula)->expression, variable);
+}

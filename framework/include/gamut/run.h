@@ -164,6 +164,9 @@ struct gamut_stream {
  * update materials by an elasticity. */
 struct gamut_law;
 
+/* Arithmetic that a scene gives for a parameter. */
+struct gamut_formula;
+
 /* ---- the table ------------------------------------------------------------------------------- */
 
 struct gamut_host {
@@ -288,6 +291,14 @@ struct gamut_host {
   /* Points that the scene lists for the body, x y z of one after the other, and their volumes; 0
    * and null where its shape is no list. */
   size_t (*body_points)(const struct gamut_body *, const double **place, const double **volume);
+  /* A parameter of type expression, made ready for all threads of the run; null where the scene does
+   * not give it. In create; owned by the run. */
+  gamut_status (*formula)(struct gamut_run *, const struct gamut_values *, const char *path,
+                          struct gamut_formula **);
+  /* Its value where its variables, in the descriptor's order, are `variable`. A thread may use its
+   * own number only. */
+  double (*formula_value)(const struct gamut_formula *, int thread, const double *variable);
+  bool (*formula_uses)(const struct gamut_formula *, size_t variable);
 };
 
 /* Every run begins with its host; the rest is the core's. */
