@@ -291,8 +291,8 @@ struct gamut_host {
   /* Points that the scene lists for the body, x y z of one after the other, and their volumes; 0
    * and null where its shape is no list. */
   size_t (*body_points)(const struct gamut_body *, const double **place, const double **volume);
-  /* A parameter of type expression, made ready for all threads of the run; null where the scene does
-   * not give it. In create; owned by the run. */
+  /* A parameter of type expression, made ready for all threads of the run; null where the scene
+   * does not give it. In create; owned by the run. */
   gamut_status (*formula)(struct gamut_run *, const struct gamut_values *, const char *path,
                           struct gamut_formula **);
   /* Its value where its variables, in the descriptor's order, are `variable`. A thread may use its
