@@ -25,7 +25,7 @@ static gamut_status measure_column(struct gamut_run *run, const char *name,
                                    struct frame_column *column, bool *found)
 {
   gamut_status status = GAMUT_OK;
-  char why[] = "outputs";
+  char why[] = "the output";
   column->formula = calloc(run->scene->materials + 1, sizeof *column->formula);
   if (!column->formula)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
@@ -69,7 +69,7 @@ static gamut_status create_column(struct gamut_run *run, const char *name,
                       name);
   column->unit = field->unit;
   column->meaning = field->meaning;
-  schedule_want(run->schedule, field, "outputs");
+  schedule_want(run->schedule, field, "the output");
 done:
   return status;
 }

@@ -17,6 +17,19 @@ static bool from_points(const struct quantity *quantity)
   return quantity->field || (quantity->measure && quantity->measure->at == MEASURE_POINT);
 }
 
+/* A typing error in `every` must not take all memory. */
+static const double samples_most = 1e7;
+
+static gamut_status check_samples(struct gamut_run *run, const struct quantity *quantity)
+{
+  if (!(quantity->every > 0.0) || run->end / quantity->every <= samples_most)
+    return GAMUT_OK;
+  return trace_fail_at(run->trace, GAMUT_SCENE, quantity->node ? &quantity->node->place : NULL,
+                       quantity->name, "a longer `every`",
+                       "quantity '%s' would have %.3g samples; %g are the most", quantity->name,
+                       run->end / quantity->every, samples_most);
+}
+
 static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
                                  const struct quantity *quantity)
 {
@@ -26,6 +39,7 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
   probe->quantity = quantity;
   probe->formula.plain = SIZE_MAX;
   probe->id = -1;
+  TRY(check_samples(run, quantity));
   probe->history = history_new(quantity, run->end);
   if (!probe->history)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");

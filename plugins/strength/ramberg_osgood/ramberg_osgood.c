@@ -20,12 +20,11 @@ GAMUT_INLINE struct terms terms_of(const struct ramberg_osgood *b, size_t i)
 static void flow_stress(const struct ramberg_osgood *b)
 {
   GAMUT_EACH (i, b) {
-    double strain = b->plastic_strain[i], q = strain / b->K[i];
-    double power = gamut_pow(q <= least ? least : q, 1.0 / b->n[i]);
-    double stress = q <= least ? 0.0 : b->yield_stress[i] * power;
+    struct terms t = terms_of(b, i);
+    double strain = b->plastic_strain[i], stress = t.stress * t.power;
+    double divisor = t.n * (strain <= least ? least : strain);
     b->flow_stress[i] = stress;
-    b->flow_stress_slope_plastic_strain[i] =
-        q <= least ? 0.0 : stress / (b->n[i] * (strain <= least ? least : strain));
+    b->flow_stress_slope_plastic_strain[i] = t.power > 0.0 ? stress / divisor : 0.0;
     GAMUT_FLAG(b, i, strain < 0.0, RAMBERG_OSGOOD_NEGATIVE_PLASTIC_STRAIN);
     GAMUT_FLAG(b, i, !(stress >= 0.0), RAMBERG_OSGOOD_NOT_FINITE);
   }
@@ -35,8 +34,8 @@ static void inverse(const struct ramberg_osgood *b)
 {
   GAMUT_EACH (i, b) {
     double q = b->flow_stress_given[i] / b->yield_stress[i];
-    double power = gamut_pow(q <= least ? least : q, b->n[i]);
-    b->plastic_strain_inverse[i] = q <= 0.0 ? 0.0 : b->K[i] * power;
+    double strain = b->K[i] * gamut_exp(b->n[i] * gamut_log(q <= least ? least : q));
+    b->plastic_strain_inverse[i] = q <= 0.0 ? 0.0 : strain;
   }
 }
 
