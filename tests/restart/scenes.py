@@ -11,13 +11,20 @@ BAR = (["solver.bonds=40"], "{every: 55}")
 SHOT = (["solver.cell=0.635 mm", "solver.end=24 us"], "{every: 14 us}")
 # Settings that make a scene short, and how often it leaves a checkpoint: once, after the middle.
 SHORT = {
+    "colliding_disks": (["solver.cell=0.05 m", "solver.end=2 s"], "{every: 1.1 s}"),
     "driver_johnson_cook": (["solver.steps=1000"], "{every: 260 us}"),
+    "mms_axis_aligned": (["solver.cell=0.1 m"], "{every: 0.011 s}"),
     "plate_impact": (["solver.cell=0.25 mm"], "{every: 1.6 us}"),
+    "rotating_block": (["solver.cell=0.05 m", "solver.end=1 s"], "{every: 0.55 s}"),
+    "self_weight": (["solver.cell=2 m", "solver.end=20 s"], "{every: 11 s}"),
     "sod": (["solver.cell=20 mm"], "{every: 0.12 s}"),
     "taylor_bar_3d": (["solver.cell=1.27 mm", "solver.end=16 us"], "{every: 9 us}"),
     "taylor_bar_benchmark": (["solver.cell=0.8 mm", "solver.end=24 us"], "{every: 14 us}"),
+    "taylor_bar_quarter": (["solver.cell=1.27 mm", "solver.end=16 us"], "{every: 9 us}"),
     "taylor_bar_random_field": (["solver.cell=0.635 mm", "solver.end=24 us"], "{every: 14 us}"),
+    "tension_bar": (["solver.cell=0.05 m", "solver.end=20 s"], "{every: 11 s}"),
     "vibrating_bar": (["solver.cell=1 m"], "{every: 11 s}"),
+    "vortex": (["solver.cell=0.1 m", "solver.end=0.2 s"], "{every: 0.11 s}"),
 }
 
 
