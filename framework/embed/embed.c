@@ -81,42 +81,6 @@ static gamut_status end(struct gamut_session *session, gamut_status status)
 }
 
 /* The request's overrides; freed by overrides_free. */
-struct override_list {
-  struct scene_override *override;
-  char **path;
-  size_t count;
-};
-
-static gamut_status overrides_read(struct gamut_session *session,
-                                   const struct gamut_run_request *request,
-                                   struct override_list *list)
-{
-  *list = (struct override_list){calloc(request->sets + 1, sizeof *list->override),
-                                 calloc(request->sets + 1, sizeof *list->path), 0};
-  if (!list->override || !list->path)
-    return trace_fail(session->trace, GAMUT_INTERNAL, "out of memory");
-  for (size_t i = 0; i < request->sets; i++) {
-    const char *equals = strchr(request->set[i], '=');
-    if (!equals)
-      return trace_fail(session->trace, GAMUT_USAGE, "'%s' is not of the form path=value",
-                        request->set[i]);
-    char *path = list->path[list->count] =
-        strndup(request->set[i], (size_t)(equals - request->set[i]));
-    if (!path)
-      return trace_fail(session->trace, GAMUT_INTERNAL, "out of memory");
-    list->override[list->count++] = (struct scene_override){.path = path, .value = equals + 1};
-  }
-  return GAMUT_OK;
-}
-
-static void overrides_free(struct override_list *list)
-{
-  for (size_t i = 0; list->path && i < list->count; i++)
-    free(list->path[i]);
-  free(list->path);
-  free(list->override);
-}
-
 /* Reads a scene, and the study that it asks for, which is null for a run of its own. */
 static gamut_status read_scene(struct gamut_session *session, const char *file,
                                const struct gamut_run_request *request, struct scene **scene,
@@ -125,9 +89,9 @@ static gamut_status read_scene(struct gamut_session *session, const char *file,
   gamut_status status = GAMUT_OK;
   struct override_list list;
   const struct study_options options = {.threads = request->threads, .force = request->force != 0};
-  TRY(overrides_read(session, request, &list));
-  TRY(scene_read(file, list.override, list.count, session->registry, session->units,
-                 session->trace, scene));
+  TRY(overrides_read(request->set, request->sets, session->trace, &list));
+  TRY(scene_read(file, list.override, list.count, session->registry, session->units, session->trace,
+                 scene));
   if (study_wanted(*scene))
     TRY(study_new(*scene, session->registry, session->units, &options, session->trace, study));
 done:

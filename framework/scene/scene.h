@@ -230,6 +230,17 @@ struct scene_override {
   const struct tree *node; /* null: `value` is read */
 };
 
+/* Overrides from texts "path=value" of a command line. */
+struct override_list {
+  struct scene_override *override;
+  size_t count;
+  char **path; /* owned; the values are borrowed from the texts */
+};
+/* GAMUT_USAGE where a text has no path or no '='. Free the list whatever the status. */
+gamut_status overrides_read(const char *const *text, size_t count, struct trace *,
+                            struct override_list *);
+void overrides_free(struct override_list *);
+
 /* Reads, merges, overrides and checks. All errors are collected. Blamed as GAMUT_SCENE; a plugin
  * that the scene names but that is broken as GAMUT_PLUGIN. Nothing is opened or run. */
 gamut_status scene_read(const char *file, const struct scene_override *, size_t overrides,
