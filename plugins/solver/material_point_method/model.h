@@ -8,9 +8,9 @@
 
 #include <gamut/run.h>
 
-#include "boundary.h"
-#include "grid.h"
-#include "transfer.h"
+#include "planes/planes.h"
+#include "grid/grid.h"
+#include "transfer/transfer.h"
 
 enum geometry { GEOMETRY_1D, GEOMETRY_PLANE_STRAIN, GEOMETRY_AXISYMMETRIC, GEOMETRY_3D };
 
@@ -104,25 +104,25 @@ struct model {
   struct ledger ledger;
 };
 
-/* layout.c: the points of the bodies. */
+/* points/layout.c: the points of the bodies. */
 gamut_status layout_bodies(struct model *, const struct gamut_values *);
 gamut_status layout_fill(struct model *);
 /* Chooses the grid's origin along the axes that no plane has fixed. */
 void layout_origin(struct model *);
 
-/* sort.c */
+/* grid/sort.c */
 gamut_status sort_points(struct model *);
 
-/* step.c */
+/* step/ */
 gamut_status step_register(struct model *);
 gamut_status step_first_scatter(struct model *);
 
-/* update.c */
+/* step/update.c */
 gamut_status step_collect(struct model *);
 gamut_status step_update_grid(void *self, const struct gamut_chunk *);
 gamut_status step_update_again(void *self, const struct gamut_chunk *);
 
-/* sums.c: energy may be null, forces not. */
+/* points/sums.c: energy may be null, forces not. */
 void sums_motion(struct work *, const struct point_view *, const double *energy);
 void sums_forces(struct work *, const struct point_view *);
 
@@ -133,7 +133,7 @@ void ledger_keep(struct model *, double step);
 /* Sums over all points, block by block. */
 void ledger_add_up(const struct model *, double total[POINT_SUMS]);
 
-/* measures.c */
+/* points/measures.c */
 gamut_status measure_value(struct model *, const char *name, const struct gamut_body *,
                            const struct gamut_values *, double *value);
 

@@ -1,8 +1,8 @@
-#include "transfer.h"
+#include "transfer/transfer.h"
 
-#include "line.h"
+#include "transfer/line.h"
 #include "model.h"
-#include "shapes.h"
+#include "transfer/shapes.h"
 
 #define JOIN_(a, b) a##_##b
 #define JOIN(a, b) JOIN_(a, b)
@@ -11,27 +11,27 @@
 #define DIMENSION 1
 #define ORDER 1
 #define SUFFIX linear_1
-#include "transfer_kernels.h"
+#include "transfer/kernels.h"
 #define DIMENSION 1
 #define ORDER 2
 #define SUFFIX quadratic_1
-#include "transfer_kernels.h"
+#include "transfer/kernels.h"
 #define DIMENSION 2
 #define ORDER 1
 #define SUFFIX linear_2
-#include "transfer_kernels.h"
+#include "transfer/kernels.h"
 #define DIMENSION 2
 #define ORDER 2
 #define SUFFIX quadratic_2
-#include "transfer_kernels.h"
+#include "transfer/kernels.h"
 #define DIMENSION 3
 #define ORDER 1
 #define SUFFIX linear_3
-#include "transfer_kernels.h"
+#include "transfer/kernels.h"
 #define DIMENSION 3
 #define ORDER 2
 #define SUFFIX quadratic_3
-#include "transfer_kernels.h"
+#include "transfer/kernels.h"
 
 #define ENTRY(suffix)                                                                              \
   {                                                                                                \

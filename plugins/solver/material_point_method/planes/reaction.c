@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "boundary.h"
+#include "planes/planes.h"
 #include "model.h"
 
 double plane_node_area(const struct model *m, const struct plane *p, const double x[3])

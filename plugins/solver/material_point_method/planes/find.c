@@ -1,4 +1,4 @@
-#include "boundary.h"
+#include "planes/planes.h"
 
 #include <math.h>
 #include <string.h>

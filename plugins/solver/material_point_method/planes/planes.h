@@ -6,8 +6,8 @@
  * turned), and after the update the node behind gets the image of the velocity. With linear shapes,
  * for a plane that moves along its normal and for an oblique one the condition holds node by node,
  * at the nodes on or behind the plane. */
-#ifndef MATERIAL_POINT_METHOD_BOUNDARY_H
-#define MATERIAL_POINT_METHOD_BOUNDARY_H
+#ifndef MATERIAL_POINT_METHOD_PLANES_H
+#define MATERIAL_POINT_METHOD_PLANES_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 
 #include <gamut/run.h>
 
-#include "grid.h"
+#include "grid/grid.h"
 
 struct model;
 

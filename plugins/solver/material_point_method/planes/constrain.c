@@ -1,8 +1,8 @@
-/* What planes do to the nodes that boundary.c found. */
+/* What planes do to the nodes that find.c found. */
 #include <math.h>
 #include <string.h>
 
-#include "boundary.h"
+#include "planes/planes.h"
 #include "model.h"
 
 /* Adds the image of the node behind to the node before. The mass is line[mass], the momentum begins

@@ -3,7 +3,7 @@
 #ifndef MATERIAL_POINT_METHOD_LINE_H
 #define MATERIAL_POINT_METHOD_LINE_H
 
-#include "grid.h"
+#include "grid/grid.h"
 
 #if defined(__AVX512F__)
 #define WIDTH 8

@@ -4,8 +4,8 @@
  * sums wait for the next chunk of the block, so that no sum depends on how a block is cut. */
 #include <string.h>
 
-#include "line.h"
-#include "transfer.h"
+#include "transfer/line.h"
+#include "transfer/transfer.h"
 
 enum { CELL_SIDE = 4, LINEAR_TILE = CELL_SIDE + 3, QUADRATIC_TILE = CELL_SIDE + 4 };
 

@@ -3,7 +3,7 @@
  * them, which no sum depends on. */
 #include <string.h>
 
-#include "grid.h"
+#include "grid/grid.h"
 
 static const char box_label[] = "boxes of blocks";
 

@@ -1,0 +1,33 @@
+/* The tasks of a step, as step.c strings them together. All take the model as `self`. */
+#ifndef MATERIAL_POINT_METHOD_STEP_H
+#define MATERIAL_POINT_METHOD_STEP_H
+
+#include "model.h"
+
+/* block.c */
+gamut_status load_block(void *self, const struct gamut_chunk *);
+gamut_status leave_momentum(void *self, const struct gamut_chunk *);
+gamut_status leave_block(void *self, const struct gamut_chunk *);
+gamut_status leave_sums(struct model *, struct work *, size_t serial);
+
+/* sweep.c
+ * First pass of MUSL: new velocities of the points, and their momentum back to the grid. */
+gamut_status renew_momentum(void *self, const struct gamut_chunk *);
+gamut_status gather_points(void *self, const struct gamut_chunk *);
+gamut_status bound_step(void *self, const struct gamut_chunk *);
+gamut_status scatter_points(void *self, const struct gamut_chunk *);
+/* Scatters points of block `serial` that begin in `slot` and adds to the sums of the ledger. */
+gamut_status scatter_view(struct model *, struct work *, const struct gamut_set *, size_t serial,
+                          size_t slot, struct point_view *, const double *energy);
+
+/* stray.c: `x` and `v` are the position and the velocity of the points. */
+struct locate locate_in(const struct model *, size_t serial, const double *const x[3],
+                        size_t count);
+/* Names the point that left the tile of its block. */
+gamut_status find_stray(const struct model *, const struct gamut_set *, size_t slot,
+                        const struct locate *, const double *const x[3], const double *const v[3]);
+/* Whether all points are in the domain, and beside the axis. */
+gamut_status check_domain(const struct model *, const struct gamut_set *, size_t slot,
+                          size_t count, const double *const x[3], const double *const v[3]);
+
+#endif

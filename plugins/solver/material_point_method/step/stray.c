@@ -1,0 +1,56 @@
+/* Where the points of a chunk lie in the tile of their block, and those that lie nowhere. */
+#include <math.h>
+
+#include "step/step.h"
+
+struct locate locate_in(const struct model *m, size_t serial, const double *const x[3],
+                               size_t count)
+{
+  const struct grid *g = &m->grid;
+  const struct node_block *b = &g->block[g->source[serial].block];
+  struct locate l = {.count = count, .inverse_cell = g->inverse_cell};
+  for (unsigned k = 0; k < m->dimension; k++) {
+    l.position[k] = x[k];
+    l.origin[k] = g->origin[k] * g->inverse_cell + g->shift + (double)b->at[k] * g->side - 1.0;
+  }
+  return l;
+}
+
+gamut_status find_stray(const struct model *m, const struct gamut_set *set, size_t slot,
+                               const struct locate *l, const double *const x[3],
+                               const double *const v[3])
+{
+  for (size_t i = 0; i < l->count; i++)
+    for (unsigned k = 0; k < m->dimension; k++) {
+      const double at = x[k][i] * l->inverse_cell - l->origin[k];
+      if (at >= 0.0 && at < m->grid.side + 2)
+        continue;
+      const double place[3] = {x[0][i], x[1][i], x[2][i]}, speed[3] = {v[0][i], v[1][i], v[2][i]};
+      return point_failed(
+          (struct model *)m, set, slot + i, place, speed,
+          isfinite(x[k][i]) && isfinite(v[k][i])
+              ? "it went farther than a cell in a step or two: the time step is too "
+                "long or the run is unstable"
+              : "its position or velocity is not a number: the time step is too long "
+                "or the material failed");
+    }
+  return gamut_fail(m->run, GAMUT_INTERNAL, "a point left its block, but none is outside");
+}
+
+gamut_status check_domain(const struct model *m, const struct gamut_set *set, size_t slot,
+                                 size_t count, const double *const x[3], const double *const v[3])
+{
+  for (size_t i = 0; i < count; i++) {
+    bool inside = true;
+    for (unsigned k = 0; k < m->dimension; k++)
+      inside = inside && x[k][i] >= m->lower[k] && x[k][i] <= m->upper[k];
+    if (inside && (m->geometry != GEOMETRY_AXISYMMETRIC || x[0][i] > 0.0))
+      continue;
+    const double place[3] = {x[0][i], x[1][i], x[2][i]}, speed[3] = {v[0][i], v[1][i], v[2][i]};
+    return point_failed((struct model *)m, set, slot + i, place, speed,
+                        inside ? "it crossed the axis: the time step is too long or the cell too "
+                                 "large"
+                               : "it left the domain; a larger solver.domain lets it go on");
+  }
+  return GAMUT_OK;
+}
