@@ -105,10 +105,10 @@ static herr_t write_vertices(struct store *store, size_t count)
   for (size_t i = 0; i < count; ++i)
     vertex[i] = (int64_t)i;
   hid_t made = hdf5_dataset(store->file, name, H5T_STD_I64LE, H5T_NATIVE_INT64, count, 1, vertex);
-  if (made < 0)
-    return -1;
-  H5Dclose(made);
-  return 0;
+  herr_t result = made < 0 ? -1 : describe(made, "1", "numbers of the rows", 1, false);
+  if (made >= 0)
+    H5Dclose(made);
+  return result;
 }
 
 static herr_t write_set(struct store *store, hid_t frame, const struct frame_set *set,

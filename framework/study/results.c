@@ -42,10 +42,10 @@ static const char **text_column(struct table *table, const char *group, const ch
 
 static void add_run(struct table *table, const struct study *study)
 {
-  double *run = number_column(table, NULL, "run", NULL, "number of the run");
-  double *level = number_column(table, NULL, "level", NULL, "number of its level");
+  double *run = number_column(table, NULL, "run", "1", "number of the run");
+  double *level = number_column(table, NULL, "level", "1", "number of its level");
   double *realisation =
-      number_column(table, NULL, "realisation", NULL, "number of its random fields");
+      number_column(table, NULL, "realisation", "1", "number of its random fields");
   const char **state = text_column(table, NULL, "status", "ok or failed");
   for (size_t r = 0; !table->failed && r < table->rows; r++) {
     run[r] = (double)r;
@@ -97,7 +97,7 @@ static void add_numbers(struct table *table, const struct study *study)
 
 static void add_ending(struct table *table, const struct study *study)
 {
-  double *steps = number_column(table, NULL, "steps", NULL, "time steps");
+  double *steps = number_column(table, NULL, "steps", "1", "time steps");
   const char **reason = text_column(table, NULL, "reason", "why it failed");
   for (size_t r = 0; !table->failed && r < table->rows; r++) {
     steps[r] = (double)study->outcome[r].steps;

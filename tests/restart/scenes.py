@@ -1,35 +1,31 @@
 """Every scene of inputs/, coarser, in one go and stopped half-way: the same bits, with another
 number of threads. Prints TAP."""
 import os
+import sys
 import tempfile
 
-import yaml
+from same import (HERE, checkpoint_step, differences, done, forget_the_end, report, run, steps)
 
-from same import (INPUTS, checkpoint_step, differences, done, forget_the_end, report, run, steps)
+sys.path.insert(0, os.path.join(HERE, "../scenes"))
+import short  # noqa: E402
 
-BAR = (["solver.bonds=40"], "{every: 55}")
-SHOT = (["solver.cell=0.635 mm", "solver.end=24 us"], "{every: 14 us}")
-# Settings that make a scene short, and how often it leaves a checkpoint: once, after the middle.
-SHORT = {
-    "colliding_disks": (["solver.cell=0.05 m", "solver.end=2 s"], "{every: 1.1 s}"),
-    "driver_johnson_cook": (["solver.steps=1000"], "{every: 260 us}"),
-    "mms_axis_aligned": (["solver.cell=0.1 m"], "{every: 0.011 s}"),
-    "plate_impact": (["solver.cell=0.25 mm"], "{every: 1.6 us}"),
-    "rotating_block": (["solver.cell=0.05 m", "solver.end=1 s"], "{every: 0.55 s}"),
-    "self_weight": (["solver.cell=2 m", "solver.end=20 s"], "{every: 11 s}"),
-    "sod": (["solver.cell=20 mm"], "{every: 0.12 s}"),
-    "taylor_bar_3d": (["solver.cell=1.27 mm", "solver.end=16 us"], "{every: 9 us}"),
-    "taylor_bar_benchmark": (["solver.cell=0.8 mm", "solver.end=24 us"], "{every: 14 us}"),
-    "taylor_bar_quarter": (["solver.cell=1.27 mm", "solver.end=16 us"], "{every: 9 us}"),
-    "taylor_bar_random_field": (["solver.cell=0.635 mm", "solver.end=24 us"], "{every: 14 us}"),
-    "tension_bar": (["solver.cell=0.05 m", "solver.end=20 s"], "{every: 11 s}"),
-    "vibrating_bar": (["solver.cell=1 m"], "{every: 11 s}"),
-    "vortex": (["solver.cell=0.1 m", "solver.end=0.2 s"], "{every: 0.11 s}"),
+# How often a scene leaves a checkpoint: once, after the middle.
+BAR, SHOT = "{every: 55}", "{every: 14 us}"
+EVERY = {
+    "colliding_disks": "{every: 1.1 s}",
+    "driver_johnson_cook": "{every: 260 us}",
+    "mms_axis_aligned": "{every: 0.011 s}",
+    "plate_impact": "{every: 1.6 us}",
+    "rotating_block": "{every: 0.55 s}",
+    "self_weight": "{every: 11 s}",
+    "sod": "{every: 0.12 s}",
+    "taylor_bar_3d": "{every: 9 us}",
+    "taylor_bar_benchmark": "{every: 14 us}",
+    "taylor_bar_quarter": "{every: 9 us}",
+    "tension_bar": "{every: 11 s}",
+    "vibrating_bar": "{every: 11 s}",
+    "vortex": "{every: 0.11 s}",
 }
-
-
-def is_study(scene):
-    return "estimator" in (scene.get("uncertainty") or {})
 
 
 def compare(name, scene, settings, every, folder):
@@ -52,17 +48,12 @@ def compare(name, scene, settings, every, folder):
 
 
 with tempfile.TemporaryDirectory() as scratch:
-    for file in sorted(os.listdir(INPUTS)):
-        if not file.endswith(".yaml"):
+    for name, path, scene, settings in short.scenes():
+        if short.is_study(scene):
             continue
-        name, path = file[:-5], os.path.join(INPUTS, file)
-        with open(path, encoding="utf-8") as opened:
-            scene = yaml.safe_load(opened)
-        if is_study(scene):
-            continue
-        model = scene["solver"]["model"]
-        settings, every = SHORT.get(name, SHOT if model == "material_point_method" else BAR)
-        shapes = ("linear", "quadratic") if model == "material_point_method" else (None,)
+        grid = scene["solver"]["model"] == "material_point_method"
+        every = EVERY.get(name, SHOT if grid else BAR)
+        shapes = ("linear", "quadratic") if grid else (None,)
         for shape in shapes:
             compare(name, path, settings + ([f"solver.shape={shape}"] if shape else []), every,
                     scratch)

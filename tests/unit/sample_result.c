@@ -40,7 +40,9 @@ static void fill(struct sample *s, double share)
   }
 }
 
-gamut_status sample_frame(struct store *store, int frame, struct trace *trace)
+/* The first `lost` points of the bar are gone, and the anvil where it is. */
+static gamut_status write_frame(struct store *store, int frame, size_t lost, size_t anvil,
+                                struct trace *trace)
 {
   struct sample *s = calloc(1, sizeof *s);
   if (!s)
@@ -51,12 +53,16 @@ gamut_status sample_frame(struct store *store, int frame, struct trace *trace)
   for (unsigned f = 0, first = 0; f < 4; first += components[f++]) {
     for (unsigned set = 0; set < 2; ++set) {
       for (unsigned k = 0; k < components[f]; ++k)
-        table[f][set * components[f] + k] = s->value[set][first + k];
+        table[f][set * components[f] + k] = s->value[set][first + k] + (set == 0 ? lost : 0);
     }
   }
   const struct frame_set sets[2] = {
-      {"bar", BAR, s->id[0], {s->position[0][0], s->position[0][1], NULL}, 2},
-      {"anvil", SAMPLE_ANVIL, s->id[1], {s->position[1][0], s->position[1][1], NULL}, 2}};
+      {"bar",
+       BAR - lost,
+       s->id[0] + lost,
+       {s->position[0][0] + lost, s->position[0][1] + lost, NULL},
+       2},
+      {"anvil", anvil, s->id[1], {s->position[1][0], s->position[1][1], NULL}, 2}};
   const struct frame_field fields[4] = {
       {"plastic_strain", "1", "equivalent plastic strain", 1, table[0]},
       {"velocity", "m/s", "velocity of the point", 3, table[1]},
@@ -66,6 +72,11 @@ gamut_status sample_frame(struct store *store, int frame, struct trace *trace)
       store_frame(store, 20e-6 * frame, (uint64_t)(100 * frame), sets, 2, fields, 4, trace);
   free(s);
   return status;
+}
+
+gamut_status sample_frame(struct store *store, int frame, struct trace *trace)
+{
+  return write_frame(store, frame, 0, SAMPLE_ANVIL, trace);
 }
 
 static gamut_status histories(struct store *store, struct trace *trace)
@@ -86,7 +97,7 @@ static gamut_status histories(struct store *store, struct trace *trace)
   return status;
 }
 
-gamut_status sample_result(const char *folder, bool replace, struct trace *trace,
+gamut_status sample_result(const char *folder, bool replace, bool shrinks, struct trace *trace,
                            struct store **store)
 {
   static const char scene[] = "gamut: 1\n"
@@ -99,7 +110,8 @@ gamut_status sample_result(const char *folder, bool replace, struct trace *trace
   TRY(store_open(folder, replace, trace, store));
   TRY(store_scene(*store, tree, trace));
   for (int frame = 0; frame < SAMPLE_FRAMES; ++frame)
-    TRY(sample_frame(*store, frame, trace));
+    TRY(write_frame(*store, frame, shrinks ? 200 * (size_t)frame : 0,
+                    shrinks && frame > 1 ? 0 : SAMPLE_ANVIL, trace));
   TRY(histories(*store, trace));
   TRY(store_summary(*store, "{\"gamut\": \"0.1.0\"}\n", trace));
 done:

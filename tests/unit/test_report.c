@@ -151,7 +151,7 @@ static void test_pictures(const char *home)
   snprintf(line, sizeof line, "%s/line", home);
   snprintf(block, sizeof block, "%s/block", home);
   snprintf(pictures, sizeof pictures, "%s/pictures", bar);
-  sample_result(bar, false, trace, &store);
+  sample_result(bar, false, false, trace, &store);
   store_close(store);
   tap_ok(write_body(line, 1, trace) == GAMUT_OK && write_body(block, 3, trace) == GAMUT_OK,
          "results are written");

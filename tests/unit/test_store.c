@@ -1,5 +1,6 @@
 /* Results on disk: what is written is read back; what is there is not lost; faults are named.
- * With a folder as argument writes the sample result there and stops. */
+ * With a folder as argument writes the sample result there and stops; with a second one, it loses
+ * points on the way. */
 #include <signal.h>
 #include <stdlib.h>
 #include <sys/resource.h>
@@ -66,7 +67,7 @@ static void test_read_back(void)
   struct result_frame *frame = NULL;
   struct result_history *history = NULL;
   size_t histories = 0;
-  CHECK(sample_result(at("a/b/one"), false, trace, &store) == GAMUT_OK,
+  CHECK(sample_result(at("a/b/one"), false, false, trace, &store) == GAMUT_OK,
         "a result is written, its folders made");
   tap_text("its folder", store_folder(store), at("a/b/one"));
   store_close(store);
@@ -210,7 +211,7 @@ int main(int argc, char **argv)
   if (argc > 1) {
     struct trace *trace = trace_new();
     struct store *store = NULL;
-    gamut_status status = sample_result(argv[1], false, trace, &store);
+    gamut_status status = sample_result(argv[1], false, argc > 2, trace, &store);
     store_close(store);
     trace_print(trace, stderr);
     trace_free(trace);
