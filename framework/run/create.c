@@ -95,6 +95,7 @@ static gamut_status create_solver(struct gamut_run *run)
     goto done;
   }
   TRY(declare_outputs(run));
+  TRY(declare_states(run, run->scene->solver.descriptor));
   TRY(ops->create(run, instance->values, &run->solver_self));
   run->solver = ops;
   if ((run->scene->checkpoint_every > 0.0 || run->scene->checkpoint_wall > 0.0) &&

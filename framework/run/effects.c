@@ -64,7 +64,7 @@ done:
 }
 
 /* States of an effect whose tasks are its own; those of kernels are declared with them. */
-static gamut_status declare_states(struct gamut_run *run, const struct descriptor *d)
+gamut_status declare_states(struct gamut_run *run, const struct descriptor *d)
 {
   for (size_t i = 0; i < d->states && d->tasks == 0; i++) {
     const struct state_variable *state = &d->state[i];

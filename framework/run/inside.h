@@ -144,6 +144,8 @@ gamut_status chance_scatter(struct gamut_run *, const struct point_set *);
 gamut_status effects_create(struct gamut_run *);
 void effects_free(struct gamut_run *);
 gamut_status effects_resolve(struct gamut_run *);
+/* Fields for the states of a plugin whose tasks are its own, not the descriptor's. */
+gamut_status declare_states(struct gamut_run *, const struct descriptor *);
 
 /* formula.c */
 gamut_status formula_new(struct gamut_run *, const char *text, struct formula *);

@@ -14,6 +14,13 @@
 
 enum geometry { GEOMETRY_1D, GEOMETRY_PLANE_STRAIN, GEOMETRY_AXISYMMETRIC, GEOMETRY_3D };
 
+/* When the velocity gradient is taken: from the updated velocity; from that of the momentum which
+ * the points give back before they move, or after. */
+enum order { ORDER_USL, ORDER_MUSL, ORDER_USF };
+
+/* What the points' new velocity is made of. */
+enum rule { RULE_FLIP, RULE_PIC, RULE_APIC, RULE_XPIC };
+
 /* Sums over the points of a block, one line of GAMUT_LANES partial sums each: lane = slot mod
  * lanes, so that the size of a chunk cannot matter. */
 enum point_sum {
@@ -61,16 +68,22 @@ struct ledger {
 
 struct fields {
   struct gamut_field position, velocity, mass, volume_ratio, stress, energy, velocity_gradient,
-      external_force, sound_speed, omega_squared, cell_size, reference_volume;
+      external_force, sound_speed, omega_squared, cell_size, reference_volume, domain_length,
+      affine_velocity;
 };
 
 struct model {
   struct gamut_run *run;
   const struct gamut_host *host;
   enum geometry geometry;
-  unsigned dimension, order;
-  bool second_pass; /* MUSL: the gradient comes from momentum projected anew */
-  double cell, pic, courant, fixed_step;
+  unsigned dimension;
+  enum shape shape;
+  enum order order;
+  enum rule rule;
+  int filter;      /* m of XPIC(m) */
+  bool contiguous; /* gimp: domains follow the stretch */
+  double cell, courant, fixed_step;
+  double pic; /* share of the nodes' velocity itself in the points' new one */
   bool bounded;
   double lower[3], upper[3]; /* domain */
   int points_per_cell;       /* by default, along one axis */
@@ -84,6 +97,9 @@ struct model {
   struct transfer transfer;
   struct work **work; /* one a thread */
   int threads;
+
+  double *filter_line; /* XPIC: as grid.line, for what is filtered */
+  size_t filter_capacity;
 
   double *block_sum;   /* POINT_SUMS a block of points */
   double *block_omega; /* largest omega squared of a block of points */
@@ -121,6 +137,15 @@ gamut_status step_first_scatter(struct model *);
 gamut_status step_collect(struct model *);
 gamut_status step_update_grid(void *self, const struct gamut_chunk *);
 gamut_status step_update_again(void *self, const struct gamut_chunk *);
+/* Nodes' momentum in the place of their velocity becomes velocity that heeds the planes. */
+void step_settle(struct model *);
+/* The boxes' momentum as velocity of the nodes, planes held. With `carry` the velocity that stood
+ * there moves to the place of its change; without, that place is left alone. */
+gamut_status step_project(struct model *, bool carry);
+
+/* step/filter.c: the part of the points' new velocity that comes from their old one, in the place
+ * of the nodes' change of velocity, which is added to it. */
+gamut_status step_filter(struct model *);
 
 /* points/sums.c: energy may be null, forces not. */
 void sums_motion(struct work *, const struct point_view *, const double *energy);

@@ -56,6 +56,7 @@ static void destroy(void *self)
     gamut_release(run, m->work[t]);
   }
   gamut_release(run, m->work);
+  gamut_release(run, m->filter_line);
   gamut_release(run, m->body);
   gamut_release(run, m->block_sum);
   gamut_release(run, m->block_omega);
@@ -94,22 +95,64 @@ static gamut_status read_domain(struct model *m, const struct gamut_values *valu
   return GAMUT_OK;
 }
 
+/* Which of `names` the choice at `path` is. */
+static int chosen(const struct gamut_values *values, const char *path, const char *const *names)
+{
+  const char *name = gamut_text(values, path);
+  int k = 0;
+  while (strcmp(name, names[k]) != 0)
+    k++;
+  return k;
+}
+
+static gamut_status read_scheme(struct model *m, const struct gamut_values *values)
+{
+  static const char *const shapes[] = {"linear", "gimp", "quadratic", "cubic"};
+  static const char *const orders[] = {"usl", "musl", "usf", "auto"};
+  m->shape = (enum shape)chosen(values, "shape", shapes);
+  const int order = chosen(values, "order", orders);
+  m->order = order < 3 ? (enum order)order : m->shape == SHAPE_LINEAR ? ORDER_MUSL : ORDER_USL;
+  m->contiguous =
+      m->shape == SHAPE_GIMP && strcmp(gamut_text(values, "gimp.domain"), "contiguous") == 0;
+  if (m->shape != SHAPE_GIMP && gamut_given(values, "gimp"))
+    return gamut_fail_at(m->run, values, "gimp", "shape: gimp, or no gimp",
+                         "the shape is %s: only those of gimp have domains", shapes[m->shape]);
+  return GAMUT_OK;
+}
+
+static gamut_status read_rule(struct model *m, const struct gamut_values *values)
+{
+  static const char *const rules[] = {"flip", "pic", "apic", "xpic"};
+  m->rule = (enum rule)chosen(values, "transfer.model", rules);
+  m->filter = (int)gamut_integer(values, "transfer.order");
+  m->pic = m->rule == RULE_FLIP ? gamut_real(values, "transfer.pic") : 1.0;
+  if (m->rule != RULE_FLIP && gamut_given(values, "transfer.pic"))
+    return gamut_fail_at(m->run, values, "transfer.pic", "model: flip, or no pic",
+                         "pic is a share in flip; %s takes none", rules[m->rule]);
+  if (m->rule != RULE_XPIC && gamut_given(values, "transfer.order"))
+    return gamut_fail_at(m->run, values, "transfer.order", "model: xpic, or no order",
+                         "%s has no order", rules[m->rule]);
+  return GAMUT_OK;
+}
+
 static gamut_status read_values(struct model *m, const struct gamut_values *values)
 {
-  const char *geometry = gamut_text(values, "geometry"), *order = gamut_text(values, "order");
+  const char *geometry = gamut_text(values, "geometry");
   m->geometry = strcmp(geometry, "1d") == 0             ? GEOMETRY_1D
                 : strcmp(geometry, "plane_strain") == 0 ? GEOMETRY_PLANE_STRAIN
                 : strcmp(geometry, "axisymmetric") == 0 ? GEOMETRY_AXISYMMETRIC
                                                         : GEOMETRY_3D;
   m->dimension = m->geometry == GEOMETRY_1D ? 1 : m->geometry == GEOMETRY_3D ? 3 : 2;
-  m->order = strcmp(gamut_text(values, "shape"), "quadratic") == 0 ? 2 : 1;
-  m->second_pass = strcmp(order, "musl") == 0 || (strcmp(order, "auto") == 0 && m->order == 1);
   m->cell = gamut_real(values, "cell");
   m->courant = gamut_real(values, "courant");
-  m->pic = gamut_real(values, "transfer.pic");
   m->fixed_step = gamut_given(values, "step") ? gamut_real(values, "step") : 0.0;
   m->points_per_cell = 2;
-  m->transfer = transfer_of(m->dimension, m->order);
+  gamut_status status = read_scheme(m, values);
+  if (status == GAMUT_OK)
+    status = read_rule(m, values);
+  if (status != GAMUT_OK)
+    return status;
+  m->transfer = transfer_of(m->dimension, m->shape, m->rule == RULE_APIC);
   return read_domain(m, values);
 }
 
@@ -130,7 +173,9 @@ static gamut_status find_fields(struct model *m)
                 {"external_force", &f->external_force},
                 {"sound_speed", &f->sound_speed},
                 {"omega_squared", &f->omega_squared},
-                {"cell_size", &f->cell_size}};
+                {"cell_size", &f->cell_size},
+                {"domain_length", &f->domain_length},
+                {"affine_velocity", &f->affine_velocity}};
   gamut_status status = GAMUT_OK;
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted && status == GAMUT_OK; i++)
     status = gamut_field_named(m->run, wanted[i].name, wanted[i].field);
@@ -173,7 +218,8 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   m->host = GAMUT_HOST(run);
   gamut_status status = read_values(m, values);
   if (status == GAMUT_OK)
-    status = grid_create(&m->grid, run, m->dimension, m->order, m->cell);
+    status = grid_create(&m->grid, run, m->dimension, shape_nodes(m->shape), shape_shift(m->shape),
+                         m->cell);
   if (status == GAMUT_OK)
     status = make_work(m);
   if (status == GAMUT_OK)

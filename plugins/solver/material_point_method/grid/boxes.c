@@ -37,12 +37,12 @@ static gamut_status new_pool(struct grid *g, size_t lines)
   return g->box != NULL ? GAMUT_OK : GAMUT_INTERNAL;
 }
 
-/* Right after a sort a full block touches side + order nodes along each axis. */
+/* Right after a sort a full block touches side + nodes - 1 nodes along each axis. */
 gamut_status boxes_create(struct grid *g)
 {
   size_t nodes = 1;
   for (unsigned k = 0; k < g->dimension; k++)
-    nodes *= (size_t)g->side + g->order;
+    nodes *= (size_t)(g->side + g->nodes - 1);
   return new_pool(g, g->sources * nodes + 1);
 }
 

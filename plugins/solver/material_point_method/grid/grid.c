@@ -90,17 +90,17 @@ gamut_status places_clear(struct gamut_run *run, struct place_table **table, siz
   return table_new(run, size, table);
 }
 
-gamut_status grid_create(struct grid *g, struct gamut_run *run, unsigned dimension, unsigned order,
-                         double cell)
+gamut_status grid_create(struct grid *g, struct gamut_run *run, unsigned dimension, int nodes,
+                         double shift, double cell)
 {
   static const int bits[] = {0, 6, 3, 2};
   memset(g, 0, sizeof *g);
   g->run = run;
   g->dimension = dimension;
-  g->order = order;
+  g->nodes = nodes;
   g->side_bits = bits[dimension];
   g->side = 1 << g->side_bits;
-  g->tile = g->side + 2 + (int)order;
+  g->tile = g->side + 1 + nodes;
   g->neighbours = 1;
   g->block_nodes = g->tile_nodes = 1;
   for (unsigned k = 0; k < dimension; k++) {
@@ -110,7 +110,7 @@ gamut_status grid_create(struct grid *g, struct gamut_run *run, unsigned dimensi
   }
   g->cell = cell;
   g->inverse_cell = 1.0 / cell;
-  g->shift = order == 2 ? 0.5 : 0.0;
+  g->shift = shift;
   return GAMUT_OK;
 }
 

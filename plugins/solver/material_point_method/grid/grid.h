@@ -52,14 +52,15 @@ int32_t places_find(const struct place_table *, const int32_t at[3]); /* -1: not
 
 struct grid {
   struct gamut_run *run;
-  unsigned dimension, order; /* order of the shape functions: 1 or 2 */
-  int side, tile;            /* cells a block, nodes a tile, along each axis */
-  int side_bits;             /* side = 1 << side_bits */
+  unsigned dimension;
+  int nodes;      /* that a point touches, along each axis */
+  int side, tile; /* cells a block, nodes a tile, along each axis */
+  int side_bits;  /* side = 1 << side_bits */
   size_t block_nodes, tile_nodes;
   unsigned neighbours; /* 3^d */
   double cell, inverse_cell;
   double origin[3]; /* a node */
-  double shift;     /* of the lowest node that a point touches, in cells */
+  double shift;     /* from the lowest node that a point touches to its cell, in cells */
   double empty;     /* a node with no more mass than this takes no part */
 
   size_t blocks, capacity;
@@ -78,8 +79,9 @@ struct grid {
   struct spill *spill;
 };
 
-gamut_status grid_create(struct grid *, struct gamut_run *, unsigned dimension, unsigned order,
-                         double cell);
+/* `nodes` and `shift` are the shape functions' (shapes.h). */
+gamut_status grid_create(struct grid *, struct gamut_run *, unsigned dimension, int nodes,
+                         double shift, double cell);
 void grid_destroy(struct grid *);
 
 /* Places are good to GRID_REACH cells from the origin. */

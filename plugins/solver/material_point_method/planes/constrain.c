@@ -286,7 +286,7 @@ void planes_before_second(struct model *m)
       double *line[3];
       for (int k = 0; k < 3; k++)
         line[k] = touched_line(m, p->column[c].touched[k]);
-      if (p->column[c].contact)
+      if (p->column[c].contact || !p->given.unilateral)
         fold(p, line, LINE_SHARE, LINE_VELOCITY, false);
     }
   }
@@ -298,7 +298,7 @@ void planes_after_second(struct model *m)
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
     for (size_t n = 0; n < p->nodes; n++)
-      if (p->node[n].contact)
+      if (p->node[n].contact || !p->given.unilateral)
         fit(p, touched_line(m, p->node[n].touched) + LINE_VELOCITY);
   }
   for (size_t i = ps->count; i-- > 0;) {
@@ -307,7 +307,7 @@ void planes_after_second(struct model *m)
       double *line[3];
       for (int k = 0; k < 3; k++)
         line[k] = touched_line(m, p->column[c].touched[k]);
-      if (p->column[c].contact)
+      if (p->column[c].contact || !p->given.unilateral)
         unfold(p, line, false);
     }
   }

@@ -47,7 +47,7 @@ gamut_status planes_add(struct model *m, const struct gamut_plane *given,
       p->sign = given->normal[k] > 0.0 ? 1 : -1;
     }
   p->moves = dot(given->velocity, given->normal) != 0.0;
-  p->images = m->order == 2 && p->axis >= 0 && !p->moves;
+  p->images = m->shape != SHAPE_LINEAR && p->axis >= 0 && !p->moves;
   for (int k = 0; k < 3; k++)
     p->odd[k] = (k == p->axis ? given->normal_rule != GAMUT_PLANE_FREE
                               : given->tangential_rule == GAMUT_PLANE_PRESCRIBED);

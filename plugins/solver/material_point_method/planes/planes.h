@@ -1,11 +1,11 @@
 /* Planes: what walls, symmetry and prescribed velocities do to the grid.
  *
- * A plane at rest whose normal lies along an axis falls on a plane of nodes. With quadratic shapes
- * it is then made by images: matter behind it is the mirror image of the matter before it, so the
- * sums of the node one behind are added to those of the node one before (what is odd with its sign
- * turned), and after the update the node behind gets the image of the velocity. With linear shapes,
- * for a plane that moves along its normal and for an oblique one the condition holds node by node,
- * at the nodes on or behind the plane. */
+ * A plane at rest whose normal lies along an axis falls on a plane of nodes. With shapes
+ * that reach beyond a cell (all but linear) it is then made by images: matter behind it is the
+ * mirror image of the matter before it, so the sums of the node one behind are added to those of
+ * the node one before (what is odd with its sign turned), and after the update the node behind gets
+ * the image of the velocity. With linear shapes, for a plane that moves along its normal and for an
+ * oblique one the condition holds node by node, at the nodes on or behind the plane. */
 #ifndef MATERIAL_POINT_METHOD_PLANES_H
 #define MATERIAL_POINT_METHOD_PLANES_H
 

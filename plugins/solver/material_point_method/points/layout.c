@@ -208,9 +208,9 @@ static double volume_correction(const struct model *m, const struct body *b, dou
   return exact > 0.0 ? exact / volume : 1.0;
 }
 
-/* One point in its slot, with its volume for a mass. */
+/* One point in its slot, with its volume for a mass; `length` is that of its domain. */
 static gamut_status fill_point(struct model *m, const struct body *b, const double place[3],
-                               size_t slot, double volume)
+                               size_t slot, double volume, const double length[3])
 {
   double speed[3] = {0.0, 0.0, 0.0};
   const gamut_status status = check_planes(m, b, place);
@@ -221,18 +221,31 @@ static gamut_status fill_point(struct model *m, const struct body *b, const doub
     const double v = k < m->dimension ? speed[k] : 0.0;
     m->host->stored(b->set, m->field.position, k)[slot] = place[k];
     m->host->stored(b->set, m->field.velocity, k)[slot] = v;
+    if (m->shape == SHAPE_GIMP)
+      m->host->stored(b->set, m->field.domain_length, k)[slot] = length[k];
     m->nodes.speed = fmax(m->nodes.speed, fabs(v));
   }
   m->host->stored(b->set, m->field.mass, 0)[slot] = volume;
   return GAMUT_OK;
 }
 
+/* Edge of the square domain that a listed point has. */
+static double listed_side(const struct model *m, double volume, double x)
+{
+  if (m->geometry == GEOMETRY_AXISYMMETRIC)
+    return sqrt(volume / (two_pi * x));
+  return m->dimension == 1 ? volume : m->dimension == 2 ? sqrt(volume) : cbrt(volume);
+}
+
 static gamut_status fill_listed(struct model *m, const struct body *b, const double *place,
                                 const double *volume)
 {
   gamut_status status = GAMUT_OK;
-  for (size_t i = 0; i < b->points && status == GAMUT_OK; i++)
-    status = fill_point(m, b, &place[3 * i], i, volume[i]);
+  for (size_t i = 0; i < b->points && status == GAMUT_OK; i++) {
+    const double side = listed_side(m, volume[i], place[3 * i]);
+    const double length[3] = {side, side, side};
+    status = fill_point(m, b, &place[3 * i], i, volume[i], length);
+  }
   return status;
 }
 
@@ -245,7 +258,8 @@ static gamut_status fill_lattice(struct model *m, const struct body *b)
     lattice_place(b, m->dimension, at, place);
     if (!m->host->body_contains(b->scene, place))
       continue;
-    const gamut_status status = fill_point(m, b, place, slot++, place_volume(m, b, place));
+    const gamut_status status =
+        fill_point(m, b, place, slot++, place_volume(m, b, place), b->spacing);
     if (status != GAMUT_OK)
       return status;
   } while (lattice_next(b, at));

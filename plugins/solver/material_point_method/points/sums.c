@@ -1,12 +1,36 @@
-/* Sums over the points of a chunk, by lane, for the ledger. */
+/* Sums over the points of a chunk, by lane and in the order of slots, for the ledger. */
 #include "model.h"
+
+#define ADD(quantity, value) sum[(quantity)*GAMUT_LANES + l] += (value)
+
+/* Moment of momentum: mass (C D - D C^T) off the diagonal; kinetic energy: half the mass times the
+ * sum of C_ck^2 D_k, with the second moments D of the weights (Jiang et al. 2015). */
+static void add_affine(double *restrict sum, const struct work *w, const struct point_view *p,
+                       size_t i)
+{
+  for (size_t l = 0; l < GAMUT_LANES; l++) {
+    const size_t j = i + l;
+    const double mass = p->mass[j];
+    double energy = 0.0;
+    for (size_t c = 0; c < 3; c++)
+      for (size_t k = 0; k < 3; k++)
+        energy += p->affine[3 * c + k][j] * p->affine[3 * c + k][j] * w->second[k][j];
+    ADD(SUM_KINETIC, 0.5 * mass * energy);
+    for (size_t k = 0; k < 3; k++) {
+      const size_t a = (k + 1) % 3, b = (k + 2) % 3;
+      const double spin = mass * (p->affine[3 * b + a][j] * w->second[a][j] -
+                                  p->affine[3 * a + b][j] * w->second[b][j]);
+      ADD(SUM_SPIN + k, spin);
+      ADD(SUM_ROUND + k, spin > 0.0 ? spin : 0.0);
+    }
+  }
+}
 
 void sums_motion(struct work *w, const struct point_view *p, const double *energy)
 {
   double *restrict sum = w->point_sum;
   const double over = energy == NULL ? 0.0 : 1.0 / p->density;
   const double *e = energy == NULL ? p->mass : energy;
-#define ADD(quantity, value) sum[(quantity)*GAMUT_LANES + l] += (value)
   for (size_t i = 0; i < p->count; i += GAMUT_LANES) {
 #pragma omp simd
     for (size_t l = 0; l < GAMUT_LANES; l++) {
@@ -27,6 +51,8 @@ void sums_motion(struct work *w, const struct point_view *p, const double *energ
       ADD(SUM_KINETIC, 0.5 * mass * (u * u + v * v + t * t));
       ADD(SUM_INTERNAL, mass * over * e[j]);
     }
+    if (p->affine[0] != NULL)
+      add_affine(sum, w, p, i);
   }
 }
 
@@ -50,5 +76,5 @@ void sums_forces(struct work *w, const struct point_view *p)
       ADD(SUM_MOBILITY, real * 0.5 * (a * a + b * b + c * c) / (mass > 0.0 ? mass : 1.0));
     }
   }
-#undef ADD
 }
+#undef ADD

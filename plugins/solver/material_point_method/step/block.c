@@ -6,7 +6,7 @@
 
 #include "step/step.h"
 
-static int thread_number(void)
+int thread_number(void)
 {
 #ifdef _OPENMP
   return omp_get_thread_num();
@@ -22,7 +22,7 @@ gamut_status load_block(void *self, const struct gamut_chunk *chunk)
   return GAMUT_OK;
 }
 
-static gamut_status leave_box(struct model *m, struct work *w, size_t serial)
+gamut_status leave_box(struct model *m, struct work *w, size_t serial)
 {
   struct source *s = &m->grid.source[serial];
   if (m->transfer.finish != NULL)
@@ -76,6 +76,10 @@ static gamut_status first_block(struct model *m, const struct body *body, size_t
     }
     for (unsigned k = 0; k < 6; k++)
       view.stress[k] = m->host->stored(set, m->field.stress, k) + at;
+    for (unsigned k = 0; m->shape == SHAPE_GIMP && k < 3; k++)
+      view.length[k] = m->host->stored(set, m->field.domain_length, k) + at;
+    for (unsigned k = 0; m->rule == RULE_APIC && k < 9; k++)
+      view.affine[k] = m->host->stored(set, m->field.affine_velocity, k) + at;
     view.mass = m->host->stored(set, m->field.mass, 0) + at;
     view.volume_ratio = m->host->stored(set, m->field.volume_ratio, 0) + at;
     const double *energy = m->host->stored(set, m->field.energy, 0);
@@ -93,7 +97,8 @@ gamut_status step_first_scatter(struct model *m)
   for (size_t b = 0; b < m->bodies; b++) {
     const size_t blocks = m->body[b].set->blocks;
     gamut_status worst = GAMUT_OK;
-#pragma omp parallel for schedule(dynamic) num_threads(m->threads)
+#pragma omp parallel for schedule(dynamic)                                                         \
+    num_threads(m->threads) if (m->grid.sources >= FEW_BLOCKS)
     for (size_t k = 0; k < blocks; k++) {
       const gamut_status status =
           first_block(m, &m->body[b], k, serial + k, m->work[thread_number()]);

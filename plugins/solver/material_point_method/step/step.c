@@ -19,50 +19,107 @@ static gamut_status add(struct model *m, const char *name, const char *phase,
   return gamut_add_task(m->run, &task);
 }
 
-#define USES(array) (array), sizeof(array) / sizeof *(array)
+/* Fields of a task, to which schemes add theirs. */
+struct uses {
+  struct gamut_use use[12];
+  size_t count;
+};
+
+static void use(struct uses *u, const char *field, enum gamut_access access)
+{
+  u->use[u->count++] = (struct gamut_use){field, access};
+}
+
+/* Gathers, and where the points move in this sweep or get their velocity, what that takes. */
+static void use_new_velocity(const struct model *m, struct uses *u)
+{
+  use(u, "velocity", GAMUT_READ_BEGIN);
+  use(u, "velocity", GAMUT_WRITE);
+  if (m->rule == RULE_APIC)
+    use(u, "affine_velocity", GAMUT_WRITE);
+}
+
+static gamut_status register_first_pass(struct model *m)
+{
+  struct uses u = {0};
+  use(&u, "position", GAMUT_READ_BEGIN);
+  use(&u, "mass", GAMUT_READ_BEGIN);
+  use_new_velocity(m, &u);
+  if (m->shape == SHAPE_GIMP)
+    use(&u, "domain_length", GAMUT_READ_BEGIN);
+  if (m->order == ORDER_USF)
+    use(&u, "position", GAMUT_WRITE);
+  gamut_status status =
+      add(m, "load velocity change", "momentum", GAMUT_OPEN_BLOCK, load_block, NULL, 0);
+  if (status == GAMUT_OK)
+    status = add(m, "renew momentum", "momentum", GAMUT_PER_CHUNK, renew_momentum, u.use, u.count);
+  if (status == GAMUT_OK)
+    status = add(m, "leave momentum", "momentum", GAMUT_CLOSE_BLOCK, leave_momentum, NULL, 0);
+  if (status == GAMUT_OK)
+    status = add(m, "update grid again", "second grid", GAMUT_ONCE, step_update_again, NULL, 0);
+  return status;
+}
+
+static gamut_status register_gather(struct model *m)
+{
+  struct uses u = {0};
+  if (m->order == ORDER_USF) {
+    use(&u, "position", GAMUT_READ);
+  } else {
+    use(&u, "position", GAMUT_READ_BEGIN);
+    use(&u, "position", GAMUT_WRITE);
+  }
+  if (m->order == ORDER_USL)
+    use_new_velocity(m, &u);
+  else
+    use(&u, "velocity", GAMUT_READ);
+  use(&u, "velocity_gradient", GAMUT_WRITE);
+  if (m->shape == SHAPE_GIMP)
+    use(&u, "domain_length", GAMUT_READ_BEGIN);
+  if (m->contiguous)
+    use(&u, "domain_length", GAMUT_WRITE);
+  const gamut_status status =
+      add(m, "load velocity", "gather", GAMUT_OPEN_BLOCK, load_block, NULL, 0);
+  return status != GAMUT_OK
+             ? status
+             : add(m, "gather", "gather", GAMUT_PER_CHUNK, gather_points, u.use, u.count);
+}
+
+static gamut_status register_scatter(struct model *m)
+{
+  struct uses u = {0};
+  use(&u, "position", GAMUT_READ);
+  use(&u, "velocity", GAMUT_READ);
+  use(&u, "mass", GAMUT_READ_BEGIN);
+  use(&u, "volume_ratio", GAMUT_READ);
+  use(&u, "stress", GAMUT_READ);
+  use(&u, "energy", GAMUT_READ_IF);
+  use(&u, "external_force", GAMUT_READ_IF);
+  use(&u, "omega_squared", GAMUT_READ);
+  if (m->shape == SHAPE_GIMP)
+    use(&u, "domain_length", GAMUT_READ);
+  if (m->rule == RULE_APIC)
+    use(&u, "affine_velocity", GAMUT_READ);
+  const gamut_status status =
+      add(m, "scatter", "scatter", GAMUT_PER_CHUNK, scatter_points, u.use, u.count);
+  return status != GAMUT_OK
+             ? status
+             : add(m, "leave block", "scatter", GAMUT_CLOSE_BLOCK, leave_block, NULL, 0);
+}
 
 gamut_status step_register(struct model *m)
 {
-  static const struct gamut_use renew[] = {{"position", GAMUT_READ_BEGIN},
-                                           {"mass", GAMUT_READ_BEGIN},
-                                           {"velocity", GAMUT_READ_BEGIN},
-                                           {"velocity", GAMUT_WRITE}};
-  static const struct gamut_use gather_once[] = {{"position", GAMUT_READ_BEGIN},
-                                                 {"velocity", GAMUT_READ_BEGIN},
-                                                 {"position", GAMUT_WRITE},
-                                                 {"velocity", GAMUT_WRITE},
-                                                 {"velocity_gradient", GAMUT_WRITE}};
-  static const struct gamut_use gather_again[] = {{"position", GAMUT_READ_BEGIN},
-                                                  {"velocity", GAMUT_READ},
-                                                  {"position", GAMUT_WRITE},
-                                                  {"velocity_gradient", GAMUT_WRITE}};
   static const struct gamut_use bound[] = {
       {"sound_speed", GAMUT_READ}, {"velocity", GAMUT_READ}, {"omega_squared", GAMUT_ADD}};
-  static const struct gamut_use scatter[] = {
-      {"position", GAMUT_READ},          {"velocity", GAMUT_READ},     {"mass", GAMUT_READ_BEGIN},
-      {"volume_ratio", GAMUT_READ},      {"stress", GAMUT_READ},       {"energy", GAMUT_READ_IF},
-      {"external_force", GAMUT_READ_IF}, {"omega_squared", GAMUT_READ}};
   gamut_status status = add(m, "update grid", "grid", GAMUT_ONCE, step_update_grid, NULL, 0);
-  if (status == GAMUT_OK && m->second_pass) {
-    status = add(m, "load velocity change", "momentum", GAMUT_OPEN_BLOCK, load_block, NULL, 0);
-    if (status == GAMUT_OK)
-      status = add(m, "renew momentum", "momentum", GAMUT_PER_CHUNK, renew_momentum, USES(renew));
-    if (status == GAMUT_OK)
-      status = add(m, "leave momentum", "momentum", GAMUT_CLOSE_BLOCK, leave_momentum, NULL, 0);
-    if (status == GAMUT_OK)
-      status = add(m, "update grid again", "second grid", GAMUT_ONCE, step_update_again, NULL, 0);
-  }
+  if (status == GAMUT_OK && m->order != ORDER_USL)
+    status = register_first_pass(m);
   if (status == GAMUT_OK)
-    status = add(m, "load velocity", "gather", GAMUT_OPEN_BLOCK, load_block, NULL, 0);
+    status = register_gather(m);
   if (status == GAMUT_OK)
-    status = m->second_pass
-                 ? add(m, "gather", "gather", GAMUT_PER_CHUNK, gather_points, USES(gather_again))
-                 : add(m, "gather", "gather", GAMUT_PER_CHUNK, gather_points, USES(gather_once));
+    status = add(m, "bound step", "bound", GAMUT_PER_CHUNK, bound_step, bound,
+                 sizeof bound / sizeof *bound);
   if (status == GAMUT_OK)
-    status = add(m, "bound step", "bound", GAMUT_PER_CHUNK, bound_step, USES(bound));
-  if (status == GAMUT_OK)
-    status = add(m, "scatter", "scatter", GAMUT_PER_CHUNK, scatter_points, USES(scatter));
-  if (status == GAMUT_OK)
-    status = add(m, "leave block", "scatter", GAMUT_CLOSE_BLOCK, leave_block, NULL, 0);
+    status = register_scatter(m);
   return status;
 }

@@ -4,14 +4,21 @@
 
 #include "model.h"
 
+/* Below so many blocks threads cost more than they give. */
+enum { FEW_BLOCKS = 64 };
+
 /* block.c */
+int thread_number(void);
+/* The box of a block of points, from the tile of its sums. */
+gamut_status leave_box(struct model *, struct work *, size_t serial);
+gamut_status leave_sums(struct model *, struct work *, size_t serial);
 gamut_status load_block(void *self, const struct gamut_chunk *);
 gamut_status leave_momentum(void *self, const struct gamut_chunk *);
 gamut_status leave_block(void *self, const struct gamut_chunk *);
-gamut_status leave_sums(struct model *, struct work *, size_t serial);
 
-/* sweep.c
- * First pass of MUSL: new velocities of the points, and their momentum back to the grid. */
+/* sweep.c: of `count` points from a slot on, those before the padding at the end. */
+size_t real_points(const struct gamut_set *, size_t slot, size_t count);
+/* First pass of MUSL: new velocities of the points, and their momentum back to the grid. */
 gamut_status renew_momentum(void *self, const struct gamut_chunk *);
 gamut_status gather_points(void *self, const struct gamut_chunk *);
 gamut_status bound_step(void *self, const struct gamut_chunk *);
@@ -27,7 +34,7 @@ struct locate locate_in(const struct model *, size_t serial, const double *const
 gamut_status find_stray(const struct model *, const struct gamut_set *, size_t slot,
                         const struct locate *, const double *const x[3], const double *const v[3]);
 /* Whether all points are in the domain, and beside the axis. */
-gamut_status check_domain(const struct model *, const struct gamut_set *, size_t slot,
-                          size_t count, const double *const x[3], const double *const v[3]);
+gamut_status check_domain(const struct model *, const struct gamut_set *, size_t slot, size_t count,
+                          const double *const x[3], const double *const v[3]);
 
 #endif

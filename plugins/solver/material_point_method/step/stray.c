@@ -4,7 +4,7 @@
 #include "step/step.h"
 
 struct locate locate_in(const struct model *m, size_t serial, const double *const x[3],
-                               size_t count)
+                        size_t count)
 {
   const struct grid *g = &m->grid;
   const struct node_block *b = &g->block[g->source[serial].block];
@@ -17,8 +17,7 @@ struct locate locate_in(const struct model *m, size_t serial, const double *cons
 }
 
 gamut_status find_stray(const struct model *m, const struct gamut_set *set, size_t slot,
-                               const struct locate *l, const double *const x[3],
-                               const double *const v[3])
+                        const struct locate *l, const double *const x[3], const double *const v[3])
 {
   for (size_t i = 0; i < l->count; i++)
     for (unsigned k = 0; k < m->dimension; k++) {
@@ -38,7 +37,7 @@ gamut_status find_stray(const struct model *m, const struct gamut_set *set, size
 }
 
 gamut_status check_domain(const struct model *m, const struct gamut_set *set, size_t slot,
-                                 size_t count, const double *const x[3], const double *const v[3])
+                          size_t count, const double *const x[3], const double *const v[3])
 {
   for (size_t i = 0; i < count; i++) {
     bool inside = true;

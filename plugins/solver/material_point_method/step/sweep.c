@@ -3,9 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include <gamut/math.h>
+
 #include "step/step.h"
 
-static size_t real_points(const struct gamut_set *set, size_t slot, size_t count)
+size_t real_points(const struct gamut_set *set, size_t slot, size_t count)
 {
   while (count > 0 && set->id[slot + count - 1] < 0)
     count--;
@@ -20,10 +22,14 @@ static void components(const struct gamut_chunk *chunk, struct gamut_field f, un
 }
 
 static void advance_velocity(const struct model *m, const struct work *w, unsigned k, size_t count,
-                             const double *from, double *to)
+                             const double *restrict from, double *restrict to)
 {
-  const double *v = w->value[k], *change = w->value[3 + k], pic = m->pic;
-  if (pic == 0.0) {
+  const double *restrict v = w->value[k], *restrict change = w->value[3 + k], pic = m->pic;
+  if (m->rule == RULE_XPIC) {
+    memcpy(to, change, count * sizeof *to);
+  } else if (pic == 1.0) {
+    memcpy(to, v, count * sizeof *to);
+  } else if (pic == 0.0) {
 #pragma omp simd
     for (size_t i = 0; i < count; i++)
       to[i] = from[i] + change[i];
@@ -34,23 +40,69 @@ static void advance_velocity(const struct model *m, const struct work *w, unsign
   }
 }
 
+/* The points' new velocity, and its slope where they carry one, from what was gathered. */
+static void renew_velocity(struct model *m, const struct gamut_chunk *chunk)
+{
+  struct work *w = m->work[chunk->thread];
+  for (unsigned k = 0; k < m->dimension; k++)
+    advance_velocity(m, w, k, chunk->count, gamut_begin(chunk, m->field.velocity, k),
+                     gamut_end(chunk, m->field.velocity, k));
+  if (m->rule != RULE_APIC)
+    return;
+  double *affine[9];
+  for (unsigned k = 0; k < 9; k++)
+    affine[k] = gamut_end(chunk, m->field.affine_velocity, k);
+  m->transfer.gather_affine(w, chunk->count, m->cell, affine);
+}
+
+static void move(struct model *m, const struct gamut_chunk *chunk, const double *const carry[3])
+{
+  const double step = gamut_time_step(m->run);
+  for (unsigned k = 0; k < m->dimension; k++) {
+    const double *restrict from = gamut_begin(chunk, m->field.position, k);
+    const double *restrict v = carry[k];
+    double *restrict to = gamut_end(chunk, m->field.position, k);
+#pragma omp simd
+    for (size_t i = 0; i < chunk->count; i++)
+      to[i] = from[i] + step * v[i];
+  }
+}
+
+/* The chunk's domains as they were when the step began. */
+static void find_domains(const struct model *m, const struct gamut_chunk *chunk, struct locate *l)
+{
+  for (unsigned k = 0; m->shape == SHAPE_GIMP && k < m->dimension; k++)
+    l->length[k] = gamut_begin(chunk, m->field.domain_length, k);
+}
+
 gamut_status renew_momentum(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
   struct work *w = m->work[chunk->thread];
+  const bool moves = m->order == ORDER_USF;
   struct point_view view = {.count = chunk->count};
   view.real = real_points(chunk->set, chunk->slot, chunk->count);
   components(chunk, m->field.position, 3, false, view.position);
   components(chunk, m->field.velocity, 3, true, view.velocity);
   components(chunk, m->field.mass, 1, false, &view.mass);
-  const struct locate l = locate_in(m, chunk->serial, view.position, chunk->count);
-  if (!m->transfer.locate(w, &l, true))
+  struct locate l = locate_in(m, chunk->serial, view.position, chunk->count);
+  find_domains(m, chunk, &l);
+  if (!m->transfer.locate(w, &l, !moves))
     return find_stray(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
-  m->transfer.gather(w, chunk->count, m->pic != 0.0);
-  for (unsigned k = 0; k < m->dimension; k++)
-    advance_velocity(m, w, k, chunk->count, gamut_begin(chunk, m->field.velocity, k),
-                     gamut_end(chunk, m->field.velocity, k));
-  m->transfer.scatter_momentum(w, &view);
+  m->transfer.gather(w, chunk->count, m->pic != 0.0 || moves);
+  renew_velocity(m, chunk);
+  if (m->rule == RULE_APIC)
+    components(chunk, m->field.affine_velocity, 9, true, view.affine);
+  if (moves) {
+    const double *const carry[3] = {w->value[0], w->value[1], w->value[2]};
+    move(m, chunk, carry);
+    components(chunk, m->field.position, 3, true, view.position);
+    l = locate_in(m, chunk->serial, view.position, chunk->count);
+    find_domains(m, chunk, &l);
+    if (!m->transfer.locate(w, &l, true))
+      return find_stray(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
+  }
+  m->transfer.scatter_momentum(w, &view, m->cell);
   return GAMUT_OK;
 }
 
@@ -70,32 +122,49 @@ static void finish_gradient(const struct model *m, const struct work *w, const d
     hoop[i] = v[i] / radius[i];
 }
 
+/* The edges of the points' domains follow the stretch along their axes, as exp(step L_kk). */
+static void stretch_domains(struct model *m, const struct gamut_chunk *chunk)
+{
+  const double step = gamut_time_step(m->run);
+  for (unsigned k = 0; k < m->dimension; k++) {
+    const double *restrict from = gamut_begin(chunk, m->field.domain_length, k);
+    const double *restrict rate = gamut_end(chunk, m->field.velocity_gradient, 4 * k);
+    double *restrict to = gamut_end(chunk, m->field.domain_length, k);
+#pragma omp simd
+    for (size_t i = 0; i < chunk->count; i++)
+      to[i] = from[i] * gamut_exp(step * rate[i]);
+  }
+}
+
 gamut_status gather_points(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
   struct work *w = m->work[chunk->thread];
   const size_t count = chunk->count;
-  const double step = gamut_time_step(m->run);
+  const bool moved = m->order == ORDER_USF;
   const double *x[3], *v[3];
   double *gradient[9];
-  components(chunk, m->field.position, 3, false, x);
-  components(chunk, m->field.velocity, 3, false, v);
+  components(chunk, m->field.position, 3, moved, x);
+  components(chunk, m->field.velocity, 3, m->order != ORDER_USL, v);
   for (unsigned k = 0; k < 9; k++)
     gradient[k] = gamut_end(chunk, m->field.velocity_gradient, k);
-  const struct locate l = locate_in(m, chunk->serial, x, count);
+  struct locate l = locate_in(m, chunk->serial, x, count);
+  find_domains(m, chunk, &l);
   if (!m->transfer.locate(w, &l, false))
     return find_stray(m, chunk->set, chunk->slot, &l, x, v);
   m->transfer.gather_gradient(w, count, m->grid.inverse_cell, gradient);
   finish_gradient(m, w, x[0], count, gradient);
-  for (unsigned k = 0; k < m->dimension; k++) {
-    const double *carry = w->value[m->second_pass ? 3 + k : k], *from = x[k];
-    double *to = gamut_end(chunk, m->field.position, k);
-    if (!m->second_pass)
-      advance_velocity(m, w, k, count, v[k], gamut_end(chunk, m->field.velocity, k));
-#pragma omp simd
-    for (size_t i = 0; i < count; i++)
-      to[i] = from[i] + step * carry[i];
+  if (m->order == ORDER_USL)
+    renew_velocity(m, chunk);
+  if (!moved) {
+    /* in the second pass of MUSL the velocity that moves points stands in the place of its change
+     */
+    const int at = m->order == ORDER_MUSL ? 3 : 0;
+    const double *const carry[3] = {w->value[at], w->value[at + 1], w->value[at + 2]};
+    move(m, chunk, carry);
   }
+  if (m->contiguous)
+    stretch_domains(m, chunk);
   return GAMUT_OK;
 }
 
@@ -115,16 +184,17 @@ gamut_status bound_step(void *self, const struct gamut_chunk *chunk)
 }
 
 gamut_status scatter_view(struct model *m, struct work *w, const struct gamut_set *set,
-                                 size_t serial, size_t slot, struct point_view *view,
-                                 const double *energy)
+                          size_t serial, size_t slot, struct point_view *view, const double *energy)
 {
   view->real = real_points(set, slot, view->count);
   view->density = m->body[set->index].density;
   view->axisymmetric = m->geometry == GEOMETRY_AXISYMMETRIC;
-  const struct locate l = locate_in(m, serial, view->position, view->count);
+  struct locate l = locate_in(m, serial, view->position, view->count);
+  for (unsigned k = 0; k < m->dimension; k++)
+    l.length[k] = view->length[k];
   if (!m->transfer.locate(w, &l, true))
     return find_stray(m, set, slot, &l, view->position, view->velocity);
-  m->transfer.scatter(w, view, m->grid.inverse_cell);
+  m->transfer.scatter(w, view, m->cell);
   sums_motion(w, view, energy);
   if (view->force[0] != NULL)
     sums_forces(w, view);
@@ -144,6 +214,10 @@ gamut_status scatter_points(void *self, const struct gamut_chunk *chunk)
   components(chunk, m->field.volume_ratio, 1, true, &view.volume_ratio);
   components(chunk, m->field.stress, 6, true, view.stress);
   components(chunk, m->field.external_force, 3, true, view.force);
+  if (m->shape == SHAPE_GIMP)
+    components(chunk, m->field.domain_length, 3, true, view.length);
+  if (m->rule == RULE_APIC)
+    components(chunk, m->field.affine_velocity, 9, true, view.affine);
   const double *omega = gamut_end(chunk, m->field.omega_squared, 0);
   double most = w->omega_squared;
 #pragma omp simd reduction(max : most)

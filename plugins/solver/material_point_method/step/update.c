@@ -2,10 +2,9 @@
 #include <math.h>
 #include <string.h>
 
-#include "model.h"
+#include "step/step.h"
 
-/* Below so many blocks of nodes threads cost more than they give. */
-enum { BLOCK_NODES_MAX = 64, FEW_BLOCKS = 64 };
+enum { BLOCK_NODES_MAX = 64 };
 
 gamut_status step_collect(struct model *m)
 {
@@ -124,11 +123,10 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
   if (planes_after_update(m, step) != GAMUT_OK)
     return GAMUT_INTERNAL;
   m->moved += m->nodes.speed * step / m->cell;
-  return GAMUT_OK;
+  return m->rule == RULE_XPIC ? step_filter(m) : GAMUT_OK;
 }
 
-/* Momentum projected anew: the first velocity moves to the place of the change. */
-static void second_block(struct model *m, size_t b)
+static void project_block(struct model *m, size_t b, bool carry)
 {
   double sum[BLOCK_NODES_MAX * LINE] __attribute__((aligned(64)));
   double *lines = m->grid.line + b * m->grid.block_nodes * LINE;
@@ -137,7 +135,8 @@ static void second_block(struct model *m, size_t b)
     double *line = lines + i * LINE;
     const double *from = sum + i * LINE;
     for (int k = 0; k < 3; k++) {
-      line[LINE_CHANGE + k] = line[LINE_VELOCITY + k];
+      if (carry)
+        line[LINE_CHANGE + k] = line[LINE_VELOCITY + k];
       line[LINE_VELOCITY + k] = from[LINE_MOMENTUM + k];
     }
     line[LINE_SHARE] = from[LINE_MASS];
@@ -155,19 +154,28 @@ static void divide_block(struct model *m, size_t b)
   }
 }
 
-gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
+void step_settle(struct model *m)
 {
-  (void)chunk;
-  struct model *m = self;
-#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
-  for (size_t b = 0; b < m->grid.blocks; b++)
-    second_block(m, b);
-  if (grid_forget_boxes(&m->grid) != GAMUT_OK)
-    return GAMUT_INTERNAL;
   planes_before_second(m);
 #pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     divide_block(m, b);
   planes_after_second(m);
+}
+
+gamut_status step_project(struct model *m, bool carry)
+{
+#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
+  for (size_t b = 0; b < m->grid.blocks; b++)
+    project_block(m, b, carry);
+  if (grid_forget_boxes(&m->grid) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  step_settle(m);
   return GAMUT_OK;
+}
+
+gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
+{
+  (void)chunk;
+  return step_project(self, true);
 }

@@ -1,15 +1,18 @@
-/* The transfers for one DIMENSION (1 to 3) and ORDER (1 or 2). Included by transfer.c once for
- * each; so it has no guard, and takes its three macros away at the end.
+/* The transfers for one DIMENSION (1 to 3) and SHAPE (linear, gimp, quadratic, cubic). Included by
+ * SHAPE.c once for each dimension; so it has no guard, and takes DIMENSION away at the end.
  *
  * Points are taken one after the other, in the order of their slots: the lanes of a vector are the
  * quantities of a node's line. That is right in any order of points, and sums do not depend on how
  * points are cut into chunks. */
 
-#define NODES (ORDER + 1)
+#define JOIN_(a, b) a##_##b
+#define JOIN(a, b) JOIN_(a, b)
+#define NAMED(name) JOIN(name, JOIN(SHAPE, DIMENSION))
+#define NODES JOIN(NODES, SHAPE)
 #define NODES_Y (DIMENSION > 1 ? NODES : 1)
 #define NODES_Z (DIMENSION > 2 ? NODES : 1)
 #define SIDE (DIMENSION == 1 ? 64 : DIMENSION == 2 ? 8 : 4)
-#define TILE (SIDE + 2 + ORDER)
+#define TILE (SIDE + 1 + NODES)
 
 static bool NAMED(locate)(struct work *w, const struct locate *in, bool grow)
 {
@@ -41,6 +44,14 @@ static bool NAMED(locate)(struct work *w, const struct locate *in, bool grow)
   }
   if (bad)
     return false;
+  for (unsigned k = 0; in->length[0] != NULL && k < DIMENSION; k++) {
+    const double *restrict length = in->length[k];
+    double *restrict reach = w->reach[k];
+    const double half = 0.5 * scale;
+#pragma omp simd
+    for (size_t i = 0; i < in->count; i++)
+      reach[i] = half * length[i] < 0.5 ? half * length[i] : 0.5;
+  }
   for (unsigned k = 0; grow && k < DIMENSION; k++) {
     if (lower[k] < w->lower[k])
       w->lower[k] = lower[k];
@@ -54,12 +65,30 @@ INLINE void NAMED(weights)(const struct work *w, size_t i, double scale,
                            double weight[DIMENSION][NODES][GAMUT_LANES],
                            double slope[DIMENSION][NODES][GAMUT_LANES])
 {
+  for (unsigned k = 0; k < DIMENSION; k++)
+    JOIN(shape, SHAPE)(w->place[k] + i, w->reach[k] + i, scale, weight[k], slope[k]);
+}
+
+/* First moments of the weights about the point, and their second moment: sum of w (x_node - x)^2.
+ * Jiang et al. (2015), Eqs. 11 to 14. */
+INLINE void NAMED(moments)(const struct work *w, size_t i, double cell,
+                           double weight[DIMENSION][NODES][GAMUT_LANES],
+                           double moment[DIMENSION][NODES][GAMUT_LANES],
+                           double second[DIMENSION][GAMUT_LANES])
+{
   for (unsigned k = 0; k < DIMENSION; k++) {
-#if ORDER == 1
-    shape_linear(w->place[k] + i, scale, weight[k], slope[k]);
-#else
-    shape_quadratic(w->place[k] + i, scale, weight[k], slope[k]);
-#endif
+    const double *restrict place = w->place[k] + i;
+#pragma omp simd
+    for (int l = 0; l < GAMUT_LANES; l++) {
+      const double from = 0.5 * (NODES - 2) + place[l];
+      double sum = 0.0;
+      for (int n = 0; n < NODES; n++) {
+        const double away = cell * (n - from);
+        moment[k][n][l] = weight[k][n][l] * away;
+        sum += moment[k][n][l] * away;
+      }
+      second[k][l] = sum;
+    }
   }
 }
 
@@ -148,6 +177,33 @@ static void NAMED(gather_gradient)(struct work *w, size_t count, double inverse_
   }
 }
 
+/* The affine field that fits the nodes' velocities best around each point: their first moments over
+ * the second moment. With linear functions that is the gradient, and stays so at a node, where both
+ * moments vanish. */
+static void NAMED(gather_affine)(struct work *w, size_t count, double cell, double *const affine[9])
+{
+  for (size_t i = 0; i < count; i += GAMUT_LANES) {
+    double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double moment[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double second[DIMENSION][GAMUT_LANES];
+    double out[DIMENSION][GAMUT_LANES][LINE] __attribute__((aligned(64)));
+    NAMED(weights)(w, i, 1.0 / cell, weight, slope);
+    NAMED(moments)(w, i, cell, weight, moment, second);
+    for (int l = 0; l < GAMUT_LANES; l++) {
+      struct line sum[4];
+      NAMED(interpolate)(w->tile + LINE * w->node[i + (size_t)l], weight,
+                         NODES == 2 ? slope : moment, l, true, sum);
+      for (int k = 0; k < DIMENSION; k++)
+        line_write(&sum[k + 1], out[k][l]);
+    }
+    for (int c = 0; c < DIMENSION; c++)
+      for (int k = 0; k < DIMENSION; k++)
+        for (size_t l = 0; l < GAMUT_LANES; l++)
+          affine[3 * c + k][i + l] = NODES == 2 ? out[k][l][c] : out[k][l][c] / second[k][l];
+  }
+}
+
 /* Lines of eight points: what goes with N, and with its slopes by x, y and z. Entries that stay
  * zero are not written. */
 INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
@@ -196,6 +252,17 @@ INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
     }
 }
 
+/* The same of the affine part of their momentum, which goes with the first moments. */
+INLINE void NAMED(prepare_affine)(const struct point_view *p, size_t i,
+                                  double out[DIMENSION + 1][GAMUT_LANES][LINE])
+{
+  for (int c = 0; c < DIMENSION; c++)
+    for (int k = 0; k < DIMENSION; k++)
+      for (int l = 0; l < GAMUT_LANES; l++)
+        out[k + 1][l][LINE_MOMENTUM + c] =
+            p->mass[i + (size_t)l] * p->affine[3 * c + k][i + (size_t)l];
+}
+
 INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LANES],
                           double slope[DIMENSION][NODES][GAMUT_LANES], int l, bool force,
                           double point[DIMENSION + 1][GAMUT_LANES][LINE])
@@ -239,29 +306,49 @@ INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LA
   }
 }
 
-INLINE void NAMED(scatter_as)(struct work *w, const struct point_view *p, double inverse_cell,
-                              bool force)
+INLINE void NAMED(scatter_as)(struct work *w, const struct point_view *p, double cell, bool force,
+                              bool affine)
 {
   double point[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64))) = {{{0.0}}};
+  double whirl[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64))) = {{{0.0}}};
   for (size_t i = 0; i < p->real; i += GAMUT_LANES) {
     double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double moment[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
+    double second[DIMENSION][GAMUT_LANES];
     const size_t here = p->real - i < GAMUT_LANES ? p->real - i : GAMUT_LANES;
-    NAMED(weights)(w, i, inverse_cell, weight, slope);
+    NAMED(weights)(w, i, 1.0 / cell, weight, slope);
     NAMED(prepare)(p, i, force, point);
-    for (int l = 0; l < (int)here; l++)
-      NAMED(spread)(w->sums + LINE * w->node[i + (size_t)l], weight, slope, l, force, point);
+    if (affine) {
+      NAMED(moments)(w, i, cell, weight, moment, second);
+      NAMED(prepare_affine)(p, i, whirl);
+      for (int k = 0; k < DIMENSION; k++)
+        memcpy(w->second[k] + i, second[k], sizeof second[k]);
+    }
+    /* point by point, so that no sum depends on how a block is cut */
+    for (int l = 0; l < (int)here; l++) {
+      double *at = w->sums + LINE * w->node[i + (size_t)l];
+      NAMED(spread)(at, weight, slope, l, force, point);
+      if (affine)
+        NAMED(spread)(at, weight, moment, l, true, whirl);
+    }
   }
 }
 
-static void NAMED(scatter)(struct work *w, const struct point_view *p, double inverse_cell)
+static void NAMED(scatter)(struct work *w, const struct point_view *p, double cell)
 {
-  NAMED(scatter_as)(w, p, inverse_cell, true);
+  if (p->affine[0] != NULL)
+    NAMED(scatter_as)(w, p, cell, true, true);
+  else
+    NAMED(scatter_as)(w, p, cell, true, false);
 }
 
-static void NAMED(scatter_momentum)(struct work *w, const struct point_view *p)
+static void NAMED(scatter_momentum)(struct work *w, const struct point_view *p, double cell)
 {
-  NAMED(scatter_as)(w, p, 1.0, false);
+  if (p->affine[0] != NULL)
+    NAMED(scatter_as)(w, p, cell, false, true);
+  else
+    NAMED(scatter_as)(w, p, cell, false, false);
 }
 
 #undef WEIGHT
@@ -270,6 +357,7 @@ static void NAMED(scatter_momentum)(struct work *w, const struct point_view *p)
 #undef NODES_Z
 #undef NODES_Y
 #undef NODES
-#undef SUFFIX
-#undef ORDER
+#undef NAMED
+#undef JOIN
+#undef JOIN_
 #undef DIMENSION

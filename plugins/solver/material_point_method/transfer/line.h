@@ -35,6 +35,19 @@ INLINE void vector_write(double *p, vector a)
   *(loose *)(void *)p = a;
 }
 
+typedef int64_t mask __attribute__((vector_size(8 * WIDTH)));
+
+INLINE vector vector_lower(vector a, vector b)
+{
+  const mask take = a < b;
+  return (vector)(((mask)a & take) | ((mask)b & ~take));
+}
+INLINE vector vector_higher(vector a, vector b)
+{
+  const mask take = a > b;
+  return (vector)(((mask)a & take) | ((mask)b & ~take));
+}
+
 INLINE void line_clear(struct line *a)
 {
   for (int k = 0; k < PARTS; k++)
@@ -67,6 +80,19 @@ INLINE void line_scale(struct line *a, double s, const struct line *b)
 {
   for (int k = 0; k < PARTS; k++)
     a->part[k] = s * b->part[k];
+}
+
+/* Blocks of three dimensions, as the transfers by cell see them. */
+enum { CELL_SIDE = 4, TILE_LINEAR = CELL_SIDE + 3 };
+
+/* One past the last point that follows `i` in its cell. */
+INLINE size_t run_end(const int32_t *node, size_t i, size_t count)
+{
+  const int32_t cell = node[i];
+  do
+    i++;
+  while (i < count && node[i] == cell);
+  return i;
 }
 
 #endif

@@ -1,0 +1,140 @@
+/* XPIC(m): what the points keep of their old velocity is v* = (1 - (1 - A)^m) v, where A takes a
+ * velocity of the nodes to the points and back, by mass: all that the nodes can see of it, and of
+ * what they cannot see less and less as m grows. As sum_r (-1)^(r-1) binomial(m, r) u_r with u_1
+ * the nodes' velocity before the step and u_r = A u_(r-1). Hammerquist and Nairn, Comput. Methods
+ * Appl. Mech. Eng. 318 (2017), Eqs. 27 to 30. */
+#include <string.h>
+
+#include "step/step.h"
+
+/* In the lines of the filter: u in the place of the velocity, v* in that of its change. */
+static gamut_status room_for_lines(struct model *m)
+{
+  if (m->filter_capacity >= m->grid.capacity)
+    return GAMUT_OK;
+  gamut_release(m->run, m->filter_line);
+  m->filter_capacity = 0;
+  m->filter_line =
+      gamut_allocate(m->run, "filter of velocities",
+                     m->grid.capacity * m->grid.block_nodes * LINE * sizeof *m->filter_line);
+  if (m->filter_line == NULL)
+    return GAMUT_INTERNAL;
+  m->filter_capacity = m->grid.capacity;
+  return GAMUT_OK;
+}
+
+static void swap_lines(struct model *m)
+{
+  double *lines = m->grid.line;
+  m->grid.line = m->filter_line;
+  m->filter_line = lines;
+}
+
+/* The nodes' velocity before the step, as momentum. */
+static void begin(struct model *m, size_t lines)
+{
+  for (size_t i = 0; i < lines; i++) {
+    const double *from = m->grid.line + i * LINE;
+    double *to = m->filter_line + i * LINE;
+    memset(to, 0, LINE * sizeof *to);
+    to[LINE_SHARE] = from[LINE_SHARE];
+    for (int k = 0; k < 3; k++)
+      to[LINE_VELOCITY + k] = from[LINE_SHARE] * (from[LINE_VELOCITY + k] - from[LINE_CHANGE + k]);
+  }
+}
+
+/* The nodes' velocity to the points of a block, and back as momentum. */
+static gamut_status pass_block(struct model *m, const struct body *body, size_t block,
+                               size_t serial, struct work *w)
+{
+  const struct gamut_set *set = body->set;
+  const size_t end = set->first[block + 1];
+  grid_load(&m->grid, &m->grid.source[serial], w->tile);
+  for (size_t at = set->first[block]; at < end; at += GAMUT_CHUNK_MAX) {
+    struct point_view view = {.count = end - at < GAMUT_CHUNK_MAX ? end - at : GAMUT_CHUNK_MAX};
+    view.real = real_points(set, at, view.count);
+    view.mass = m->host->stored(set, m->field.mass, 0) + at;
+    for (unsigned k = 0; k < 3; k++) {
+      view.position[k] = m->host->stored(set, m->field.position, k) + at;
+      view.velocity[k] = w->value[k];
+    }
+    struct locate l = locate_in(m, serial, view.position, view.count);
+    for (unsigned k = 0; m->shape == SHAPE_GIMP && k < m->dimension; k++)
+      l.length[k] = m->host->stored(set, m->field.domain_length, k) + at;
+    if (!m->transfer.locate(w, &l, true))
+      return find_stray(m, set, at, &l, view.position, view.velocity);
+    m->transfer.gather(w, view.count, true);
+    m->transfer.scatter_momentum(w, &view, m->cell);
+  }
+  return leave_box(m, w, serial);
+}
+
+static gamut_status pass(struct model *m)
+{
+  size_t serial = 0;
+  for (size_t b = 0; b < m->bodies; b++) {
+    const size_t blocks = m->body[b].set->blocks;
+    gamut_status worst = GAMUT_OK;
+#pragma omp parallel for schedule(dynamic)                                                         \
+    num_threads(m->threads) if (m->grid.sources >= FEW_BLOCKS)
+    for (size_t k = 0; k < blocks; k++) {
+      const gamut_status status =
+          pass_block(m, &m->body[b], k, serial + k, m->work[thread_number()]);
+      if (status != GAMUT_OK) {
+#pragma omp atomic write
+        worst = status;
+      }
+    }
+    if (worst != GAMUT_OK)
+      return worst;
+    serial += blocks;
+  }
+  return step_project(m, false);
+}
+
+static void add_share(struct model *m, size_t lines, double share)
+{
+  for (size_t i = 0; i < lines; i++)
+    for (size_t k = 0; k < 3; k++)
+      m->grid.line[i * LINE + LINE_CHANGE + k] +=
+          share * m->grid.line[i * LINE + LINE_VELOCITY + k];
+}
+
+/* What planes gave the points by way of the filter: the difference of momentum that it makes. */
+static void book(struct model *m, size_t lines)
+{
+  for (size_t i = 0; i < lines; i++) {
+    const double *line = m->grid.line + i * LINE, *u = m->filter_line + i * LINE;
+    const int32_t touched = m->planes.count > 0 ? m->planes.of_line[i] : -1;
+    const double mass = touched < 0 ? line[LINE_SHARE] : m->planes.touched[touched].mass;
+    for (int k = 0; k < 3; k++)
+      m->planes.impulse[k] +=
+          mass * (u[LINE_CHANGE + k] - line[LINE_VELOCITY + k] + line[LINE_CHANGE + k]);
+  }
+}
+
+gamut_status step_filter(struct model *m)
+{
+  const size_t lines = m->grid.blocks * m->grid.block_nodes;
+  if (room_for_lines(m) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  begin(m, lines);
+  swap_lines(m);
+  gamut_status status = GAMUT_OK;
+  double share = m->filter;
+  step_settle(m);
+  add_share(m, lines, share);
+  for (int r = 2; r <= m->filter && status == GAMUT_OK; r++) {
+    status = pass(m);
+    share *= -(double)(m->filter - r + 1) / r;
+    add_share(m, lines, share);
+  }
+  swap_lines(m);
+  if (status != GAMUT_OK)
+    return status;
+  book(m, lines);
+  for (size_t i = 0; i < lines; i++)
+    for (size_t k = 0; k < 3; k++)
+      m->grid.line[i * LINE + LINE_CHANGE + k] += m->filter_line[i * LINE + LINE_CHANGE + k];
+  return GAMUT_OK;
+}
