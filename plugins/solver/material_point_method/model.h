@@ -117,6 +117,7 @@ struct model {
   double omega_squared; /* largest of all points */
   double last_step;
   uint64_t taken; /* steps */
+  bool beyond;    /* the user knows of domains longer than a cell */
   struct ledger ledger;
 };
 
@@ -161,6 +162,9 @@ void ledger_add_up(const struct model *, double total[POINT_SUMS]);
 /* points/measures.c */
 gamut_status measure_value(struct model *, const char *name, const struct gamut_body *,
                            const struct gamut_values *, double *value);
+
+/* points/pieces.c: in how many pieces the grid sees the points of a set. */
+gamut_status body_pieces(struct model *, const struct gamut_set *, double *pieces);
 
 /* The model's own error texts about a point. */
 gamut_status point_failed(struct model *, const struct gamut_set *, size_t slot, const double x[3],

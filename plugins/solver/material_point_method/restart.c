@@ -168,6 +168,7 @@ static void pass_model(struct model *m, struct archive *a)
   pass(a, &m->omega_squared, sizeof m->omega_squared);
   pass(a, &m->last_step, sizeof m->last_step);
   pass(a, &m->taken, sizeof m->taken);
+  pass(a, &m->beyond, sizeof m->beyond);
   pass(a, &m->nodes, sizeof m->nodes);
   pass(a, m->ledger.now, sizeof m->ledger.now);
   pass(a, m->grid.origin, sizeof m->grid.origin);

@@ -300,6 +300,21 @@ static gamut_status next(void *self, double *step)
   return sort_points(m);
 }
 
+static void tell_domains(struct model *m)
+{
+  bool beyond = false;
+  for (int t = 0; t < m->threads; t++)
+    beyond |= m->work[t]->beyond != 0;
+  if (!beyond || m->beyond)
+    return;
+  m->beyond = true;
+  GAMUT_HOST(m->run)->warn(m->run,
+                           "from t = %.6g s on some points have domains longer than a cell; they "
+                           "act as one cell long, and gaps between them are not filled (measure "
+                           "long_domains counts them; more points a cell or a larger cell help)",
+                           gamut_time(m->run));
+}
+
 static gamut_status after(void *self)
 {
   struct model *m = self;
@@ -309,6 +324,7 @@ static gamut_status after(void *self)
     m->omega_squared = fmax(m->omega_squared, m->block_omega[s]);
   m->last_step = step;
   m->taken++;
+  tell_domains(m);
   ledger_keep(m, step);
   return GAMUT_OK;
 }

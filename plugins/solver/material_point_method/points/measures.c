@@ -192,6 +192,23 @@ static gamut_status over_field(struct model *m, const struct cloud *c, enum redu
   return GAMUT_OK;
 }
 
+static gamut_status long_domains(struct model *m, const struct cloud *c, double *value)
+{
+  const double *length[3];
+  if (m->shape != SHAPE_GIMP)
+    return gamut_fail(m->run, GAMUT_SCENE, "only with shape gimp have points domains");
+  for (unsigned k = 0; k < m->dimension; k++)
+    length[k] = m->host->stored(c->set, m->field.domain_length, k);
+  *value = 0.0;
+  for (size_t i = 0; i < c->set->slots; i++) {
+    bool beyond = false;
+    for (unsigned k = 0; k < m->dimension; k++)
+      beyond |= length[k][i] > m->cell * (1.0 + 1e-9);
+    *value += c->set->id[i] >= 0 && beyond;
+  }
+  return GAMUT_OK;
+}
+
 enum total { MASS, MOMENTUM, KINETIC, INTERNAL };
 
 static double total(const struct cloud *c, enum total what, int axis)
@@ -228,6 +245,10 @@ gamut_status measure_value(struct model *m, const char *name, const struct gamut
     return over_field(m, &c, MEAN, arguments, value);
   if (strcmp(name, "maximum") == 0)
     return over_field(m, &c, MAXIMUM, arguments, value);
+  if (strcmp(name, "pieces") == 0)
+    return body_pieces(m, c.set, value);
+  if (strcmp(name, "long_domains") == 0)
+    return long_domains(m, &c, value);
   if (strcmp(name, "body_mass") == 0)
     *value = total(&c, MASS, 0);
   else if (strcmp(name, "momentum") == 0)

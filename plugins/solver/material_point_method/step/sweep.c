@@ -125,15 +125,19 @@ static void finish_gradient(const struct model *m, const struct work *w, const d
 /* The edges of the points' domains follow the stretch along their axes, as exp(step L_kk). */
 static void stretch_domains(struct model *m, const struct gamut_chunk *chunk)
 {
-  const double step = gamut_time_step(m->run);
+  const double step = gamut_time_step(m->run), cell = m->cell * (1.0 + 1e-9);
+  int beyond = 0;
   for (unsigned k = 0; k < m->dimension; k++) {
     const double *restrict from = gamut_begin(chunk, m->field.domain_length, k);
     const double *restrict rate = gamut_end(chunk, m->field.velocity_gradient, 4 * k);
     double *restrict to = gamut_end(chunk, m->field.domain_length, k);
-#pragma omp simd
-    for (size_t i = 0; i < chunk->count; i++)
+#pragma omp simd reduction(| : beyond)
+    for (size_t i = 0; i < chunk->count; i++) {
       to[i] = from[i] * gamut_exp(step * rate[i]);
+      beyond |= to[i] > cell;
+    }
   }
+  m->work[chunk->thread]->beyond |= beyond;
 }
 
 gamut_status gather_points(void *self, const struct gamut_chunk *chunk)
