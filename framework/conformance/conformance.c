@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "conformance/proof.h"
+#include "conformance/scene_run.h"
 
 /* A plugin that hangs is stopped. */
 enum { SECONDS_MAX = 300 };
@@ -19,11 +19,11 @@ static const char the_end[] = "the end";
 static struct tree *read_known(const struct descriptor *d, struct trace *trace)
 {
   struct tree *tree = NULL;
-  size_t length = strlen(d->folder) + strlen(d->name) + 32;
-  char *file = malloc(length);
+  char name[256];
+  snprintf(name, sizeof name, "%s.test.yaml", d->name);
+  char *file = plugin_file(d, name);
   if (!file)
     return NULL;
-  snprintf(file, length, "%s/%s.test.yaml", d->folder, d->name);
   if (access(file, R_OK) == 0)
     tree_read(file, GAMUT_PLUGIN, trace, &tree);
   free(file);
@@ -77,6 +77,7 @@ static void prove_kind(struct proof *proof, bool based)
   } else if (kind == GAMUT_KIND_EFFECT || kind == GAMUT_KIND_SOLVER) {
     prove_scene(proof);
   }
+  prove_scene_answers(proof);
 }
 
 /* A crash shall end the child by its signal, whatever handlers the program has, and leave no core.

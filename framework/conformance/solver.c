@@ -4,8 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "conformance/proof.h"
-#include "run/run.h"
+#include "conformance/scene_run.h"
 
 /* What one run of the scene left, to compare bits. */
 struct outcome {
@@ -48,40 +47,26 @@ static void keep_ledger(struct outcome *outcome, const struct gamut_run *run)
 
 static void run_scene(struct proof *proof, const char *file, int threads, struct outcome *outcome)
 {
-  gamut_status status = GAMUT_OK;
-  struct trace *trace = trace_new();
-  struct scene *scene = NULL;
-  struct gamut_run *run = NULL;
-  const struct run_options options = {.threads = threads};
-  *outcome = (struct outcome){0};
-  TRY(scene_read(file, NULL, 0, proof->registry, proof->units, trace, &scene));
-  TRY(run_new(scene, proof->registry, &options, trace, &run));
-  TRY(run_march(run, trace));
-  keep_histories(outcome, run);
-  keep_ledger(outcome, run);
-  outcome->steps = run_cost_of(run).steps;
-done:
-  outcome->status = status;
-  outcome->ended = status == GAMUT_OK;
-  if (status != GAMUT_OK) {
-    char *text = trace_text(trace);
-    check_say(&proof->checks, "%s", text ? text : "");
-    free(text);
+  struct scene_run made;
+  scene_run_make(&made, proof, file, NULL, 0, threads);
+  *outcome = (struct outcome){.status = made.status, .ended = made.status == GAMUT_OK};
+  if (outcome->ended) {
+    keep_histories(outcome, made.run);
+    keep_ledger(outcome, made.run);
+    outcome->steps = run_cost_of(made.run).steps;
   }
-  run_free(run);
-  scene_free(scene);
-  trace_free(trace);
+  scene_run_free(&made);
 }
 
 void prove_scene(struct proof *proof)
 {
   const struct descriptor *d = proof->descriptor;
   struct outcome outcome[3] = {{0}};
-  size_t length = strlen(d->folder) + strlen(d->name) + 32;
-  char *file = malloc(length);
+  char name[256];
+  snprintf(name, sizeof name, "%s.scene.yaml", d->name);
+  char *file = plugin_file(d, name);
   if (!file)
     return;
-  snprintf(file, length, "%s/%s.scene.yaml", d->folder, d->name);
   if (access(file, R_OK) != 0) {
     check_skip(&proof->checks, "no such file", "the scene %s.scene.yaml", d->name);
     free(file);

@@ -3,6 +3,7 @@
 #include "boundary.gamut.h"
 
 struct boundary_effect {
+  struct gamut_run *run;
   struct gamut_plane plane;
   const struct gamut_reaction *reaction; /* null for a traction */
   double traction[3], depth;
@@ -74,6 +75,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   struct boundary_effect *b = gamut_allocate(run, "boundary", sizeof *b);
   if (b == NULL)
     return GAMUT_INTERNAL;
+  b->run = run;
   copy(values, "plane.point", b->plane.point);
   copy(values, "plane.normal", b->plane.normal);
   b->plane.normal_rule = symmetry ? GAMUT_PLANE_MIRROR : GAMUT_PLANE_PRESCRIBED;
@@ -106,12 +108,15 @@ static gamut_status measure(void *self, const char *name, const struct gamut_bod
 {
   (void)body;
   const struct boundary_effect *b = self;
-  static const struct gamut_reaction none = {.area = 0.0};
-  const struct gamut_reaction *r = b->reaction != NULL ? b->reaction : &none;
+  const struct gamut_reaction *r = b->reaction;
+  if (r == NULL)
+    return gamut_fail(b->run, GAMUT_SCENE, "a traction has no reaction: its force is stated");
   if (strcmp(name, "normal_force") == 0) {
     *value = 0.0;
     for (int k = 0; k < 3; k++)
       *value -= r->force[k] * b->plane.normal[k];
+  } else if (strcmp(name, "contact_area") == 0) {
+    *value = r->area;
   } else if (strcmp(name, "work") == 0) {
     *value = r->work;
   } else {

@@ -1,0 +1,26 @@
+/* Runs of scenes that lie in a plugin's folder. */
+#ifndef GAMUT_SCENE_RUN_H
+#define GAMUT_SCENE_RUN_H
+
+#include "conformance/proof.h"
+#include "run/run.h"
+
+struct scene_run {
+  struct scene *scene;
+  struct gamut_run *run;
+  struct trace *trace;
+  gamut_status status;
+};
+/* Path of a file in the plugin's folder, to be freed; null without memory. */
+char *plugin_file(const struct descriptor *, const char *name);
+/* Runs a scene to its end, with some of it overridden. Says why where it fails. */
+void scene_run_make(struct scene_run *, struct proof *, const char *file,
+                    const struct scene_override *, size_t overrides, int threads);
+void scene_run_free(struct scene_run *);
+
+/* The tests of NAME.test.yaml that run a scene. */
+void prove_scene_answers(struct proof *);
+/* Whether a test of NAME.test.yaml is such a one. */
+bool is_scene_test(const struct tree *test);
+
+#endif
