@@ -46,6 +46,7 @@ static void pass_box(struct model *m, size_t index, struct archive *a)
   struct source *s = &g->source[index];
   struct source copy = *s;
   copy.box = NULL;
+  copy.opened = 0;
   pass(a, &copy, sizeof copy);
   if (a->failed)
     return;
@@ -81,6 +82,7 @@ static void pass_grid(struct model *m, struct archive *a)
     struct node_block block = {0};
     if (a->from == NULL)
       block = g->block[b];
+    block.line = block.filter = NULL;
     pass(a, &block, sizeof block);
     int32_t number = 0;
     if (a->from == NULL || a->failed)
@@ -92,7 +94,6 @@ static void pass_grid(struct model *m, struct archive *a)
   }
   if (a->failed)
     return;
-  pass(a, g->line, blocks * g->block_nodes * LINE * sizeof *g->line);
   if (a->from != NULL)
     a->failed |= grid_forget_boxes(g) != GAMUT_OK;
   for (size_t s = 0; s < sources && !a->failed; s++)

@@ -125,13 +125,26 @@ void grid_load(const struct grid *g, const struct source *s, double *tile)
     struct overlap v;
     if (!overlap_of(g, s, o, &v))
       continue;
-    const double *line = g->line + (size_t)b->neighbour[o] * g->block_nodes * LINE;
+    const double *line = g->block[b->neighbour[o]].line;
     const size_t bytes = (size_t)(v.upper[0] - v.lower[0]) * LINE * sizeof *line;
     for (int z = v.lower[2]; z < v.upper[2]; z++)
       for (int y = v.lower[1]; y < v.upper[1]; y++)
-        memcpy(tile + LINE * tile_row(g, v.lower[0], y, z), line + LINE * block_row(g, &v, y, z),
-               bytes);
+        if (line != NULL)
+          memcpy(tile + LINE * tile_row(g, v.lower[0], y, z), line + LINE * block_row(g, &v, y, z),
+                 bytes);
+        else
+          memset(tile + LINE * tile_row(g, v.lower[0], y, z), 0, bytes);
   }
+}
+
+static uint32_t reach_of(const struct grid *g, const struct source *s)
+{
+  uint32_t reach = 0;
+  struct overlap v;
+  for (unsigned o = 0; o < g->neighbours; o++)
+    if (overlap_of(g, s, o, &v))
+      reach |= UINT32_C(1) << o;
+  return reach;
 }
 
 gamut_status grid_leave(struct grid *g, size_t source, double *tile)
@@ -139,6 +152,7 @@ gamut_status grid_leave(struct grid *g, size_t source, double *tile)
   struct source *s = &g->source[source];
   const int nx = s->upper[0] - s->lower[0], ny = s->upper[1] - s->lower[1],
             nz = s->upper[2] - s->lower[2];
+  s->reach = reach_of(g, s);
   if (nx <= 0 || ny <= 0 || nz <= 0)
     return GAMUT_OK;
   s->box = take_box(g, (size_t)nx * (size_t)ny * (size_t)nz);
@@ -154,9 +168,8 @@ gamut_status grid_leave(struct grid *g, size_t source, double *tile)
   return GAMUT_OK;
 }
 
-static void add_box(const struct grid *g, size_t index, unsigned o, double *lines)
+static void add_box(const struct grid *g, const struct source *s, unsigned o, double *lines)
 {
-  const struct source *s = &g->source[index];
   struct overlap v;
   if (!overlap_of(g, s, o, &v))
     return;
@@ -181,6 +194,7 @@ void grid_collect(const struct grid *g, const struct node_block *b, double *line
     /* seen from the neighbour, this block lies in the opposite direction */
     const unsigned opposite = g->neighbours - 1 - o;
     for (int32_t s = g->block[b->neighbour[o]].source; s >= 0; s = g->source[s].next)
-      add_box(g, (size_t)s, opposite, lines);
+      if ((g->source[s].reach >> opposite & 1) != 0)
+        add_box(g, &g->source[s], opposite, lines);
   }
 }

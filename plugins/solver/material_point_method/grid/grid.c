@@ -114,18 +114,76 @@ gamut_status grid_create(struct grid *g, struct gamut_run *run, unsigned dimensi
   return GAMUT_OK;
 }
 
+/* Lines of some blocks, taken from the machine at once. */
+struct line_page {
+  struct line_page *next;
+  double line[] __attribute__((aligned(64)));
+};
+enum { PAGE_BLOCKS = 16 };
+
 void grid_destroy(struct grid *g)
 {
   if (g->run == NULL)
     return;
   gamut_release(g->run, g->block);
-  gamut_release(g->run, g->line);
   places_free(g->run, g->table);
   gamut_release(g->run, g->spare_block);
-  gamut_release(g->run, g->spare_line);
   places_free(g->run, g->spare_table);
   gamut_release(g->run, g->source);
+  while (g->page != NULL) {
+    struct line_page *next = g->page->next;
+    gamut_release(g->run, g->page);
+    g->page = next;
+  }
   boxes_destroy(g);
+}
+
+/* Free lines hang together by their first bytes. */
+static void free_lines(struct grid *g, double *line)
+{
+  memcpy(line, &g->free_line, sizeof g->free_line);
+  g->free_line = line;
+}
+
+static gamut_status new_page(struct grid *g)
+{
+  const size_t doubles = g->block_nodes * LINE;
+  struct line_page *page =
+      gamut_allocate(g->run, "grid", sizeof *page + PAGE_BLOCKS * doubles * sizeof(double));
+  if (page == NULL)
+    return GAMUT_INTERNAL;
+  page->next = g->page;
+  g->page = page;
+  for (size_t b = PAGE_BLOCKS; b-- > 0;)
+    free_lines(g, page->line + b * doubles);
+  return GAMUT_OK;
+}
+
+gamut_status grid_open(struct grid *g, struct node_block *b)
+{
+  if (b->line != NULL)
+    return GAMUT_OK;
+  if (g->free_line == NULL && new_page(g) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  b->line = g->free_line;
+  memcpy(&g->free_line, b->line, sizeof g->free_line);
+  memset(b->line, 0, g->block_nodes * LINE * sizeof *b->line);
+  g->opened = true;
+  return GAMUT_OK;
+}
+
+gamut_status grid_open_reached(struct grid *g)
+{
+  for (size_t i = 0; i < g->sources; i++) {
+    struct source *s = &g->source[i];
+    const uint32_t fresh = s->reach & ~s->opened;
+    for (unsigned o = 0; fresh >> o != 0; o++)
+      if ((fresh >> o & 1) != 0 &&
+          grid_open(g, &g->block[g->block[s->block].neighbour[o]]) != GAMUT_OK)
+        return GAMUT_INTERNAL;
+    s->opened |= fresh;
+  }
+  return GAMUT_OK;
 }
 
 /* Makes room for `wanted` blocks of nodes, keeping those there are. */
@@ -138,12 +196,8 @@ static gamut_status grow(struct grid *g, size_t wanted)
   struct place_table *table = NULL;
   if (table_new(g->run, size, &table) != GAMUT_OK)
     return GAMUT_INTERNAL;
-  const size_t bytes = g->block_nodes * LINE * sizeof(double);
   struct node_block *block = gamut_allocate(g->run, "grid", capacity * sizeof *block);
-  double *line = gamut_allocate(g->run, "grid", capacity * bytes);
-  if (block == NULL || line == NULL) {
-    gamut_release(g->run, block);
-    gamut_release(g->run, line);
+  if (block == NULL) {
     places_free(g->run, table);
     return GAMUT_INTERNAL;
   }
@@ -152,10 +206,8 @@ static gamut_status grow(struct grid *g, size_t wanted)
     places_put(table, block[b].at, (int32_t)b);
   }
   gamut_release(g->run, g->block);
-  gamut_release(g->run, g->line);
   places_free(g->run, g->table);
   g->block = block;
-  g->line = line;
   g->table = table;
   g->capacity = capacity;
   return GAMUT_OK;
@@ -168,12 +220,33 @@ static gamut_status grow(struct grid *g, size_t wanted)
     (b) = swap_;                                                                                   \
   } while (0)
 
+/* Lines that no box reaches are all zero. */
+static void free_unreached(struct grid *g)
+{
+  for (size_t b = 0; b < g->blocks; b++)
+    g->block[b].reached = false;
+  for (size_t i = 0; i < g->sources; i++) {
+    const struct source *s = &g->source[i];
+    for (unsigned o = 0; s->reach >> o != 0; o++)
+      if ((s->reach >> o & 1) != 0)
+        g->block[g->block[s->block].neighbour[o]].reached = true;
+  }
+  for (size_t b = 0; b < g->blocks; b++) {
+    struct node_block *block = &g->block[b];
+    if (block->line == NULL || block->reached)
+      continue;
+    free_lines(g, block->line);
+    block->line = NULL;
+  }
+}
+
 gamut_status grid_begin(struct grid *g)
 {
+  free_unreached(g);
   SWAP(struct node_block *, g->block, g->spare_block);
-  SWAP(double *, g->line, g->spare_line);
   SWAP(struct place_table *, g->table, g->spare_table);
   SWAP(size_t, g->capacity, g->spare_capacity);
+  g->spare_blocks = g->blocks;
   g->blocks = 0;
   if (g->table == NULL)
     return grow(g, 1);
@@ -192,7 +265,7 @@ gamut_status grid_block(struct grid *g, const int32_t at[3], int32_t *number)
   memset(b, 0, sizeof *b);
   for (int k = 0; k < 3; k++)
     b->at[k] = at[k];
-  b->source = -1;
+  b->source = b->planes = -1;
   *number = (int32_t)g->blocks++;
   places_put(g->table, at, *number);
   return GAMUT_OK;
@@ -217,20 +290,21 @@ gamut_status grid_finish(struct grid *g)
         return GAMUT_INTERNAL;
     }
   }
-  const size_t doubles = g->block_nodes * LINE;
-  for (size_t b = 0; b < g->blocks; b++) {
+  for (size_t b = 0; b < g->blocks; b++)
     for (unsigned o = 0; o < g->neighbours; o++) {
       int32_t place[3];
       neighbour_place(g, g->block[b].at, o, place);
       g->block[b].neighbour[o] = places_find(g->table, place);
     }
-    const int32_t old = places_find(g->spare_table, g->block[b].at);
-    double *line = g->line + b * doubles;
-    if (old >= 0)
-      memcpy(line, g->spare_line + (size_t)old * doubles, doubles * sizeof *line);
-    else
-      memset(line, 0, doubles * sizeof *line);
+  for (size_t b = 0; b < g->spare_blocks; b++) {
+    double *line = g->spare_block[b].line;
+    const int32_t now = places_find(g->table, g->spare_block[b].at);
+    if (line != NULL && now >= 0)
+      g->block[now].line = line;
+    else if (line != NULL)
+      free_lines(g, line);
   }
+  g->spare_blocks = 0;
   return GAMUT_OK;
 }
 
@@ -254,6 +328,7 @@ void grid_source(struct grid *g, size_t index, int32_t block)
   s->block = block;
   s->next = -1;
   s->box = NULL;
+  s->reach = s->opened = 0;
   for (unsigned k = 0; k < 3; k++) {
     s->lower[k] = 0;
     s->upper[k] = k < g->dimension ? g->tile : 1;
@@ -264,17 +339,18 @@ void grid_source(struct grid *g, size_t index, int32_t block)
   *link = (int32_t)index;
 }
 
-int64_t grid_line(const struct grid *g, const int32_t node[3])
+struct node_block *grid_block_at(const struct grid *g, const int32_t node[3], size_t *index)
 {
   int32_t at[3] = {0, 0, 0};
-  int64_t index = 0, stride = 1;
+  size_t stride = 1;
+  *index = 0;
   for (unsigned k = 0; k < g->dimension; k++) {
     at[k] = grid_block_of(g, node[k]);
-    index += stride * (node[k] - at[k] * g->side);
-    stride *= g->side;
+    *index += stride * (size_t)(node[k] - at[k] * g->side);
+    stride *= (size_t)g->side;
   }
   const int32_t b = places_find(g->table, at);
-  return b < 0 ? -1 : (int64_t)b * (int64_t)g->block_nodes + index;
+  return b < 0 ? NULL : &g->block[b];
 }
 
 void grid_node(const struct grid *g, const struct node_block *b, size_t index, int32_t node[3])

@@ -29,6 +29,10 @@ struct node_block {
   int32_t
       neighbour[NEIGHBOURS]; /* number of the block there, or -1; x fastest, itself in the middle */
   int32_t source;            /* first block of points here, or -1 */
+  bool reached;   /* by a box, before a sort */
+  int32_t planes; /* where planes keep what they know of its nodes, or -1 */
+  double *line;   /* its nodes' lines; null until a box reaches it */
+  double *filter; /* and their lines in a filter of velocities */
 };
 
 /* A block of points, seen from the grid. */
@@ -36,10 +40,13 @@ struct source {
   int32_t block;              /* the block of nodes at its place */
   int32_t next;               /* next block of points at this place, or -1 */
   int32_t lower[3], upper[3]; /* nodes of the tile from lower to upper - 1 hold its sums */
+  uint32_t reach;             /* neighbours that the box overlaps, one bit each */
+  uint32_t opened;            /* neighbours that are known to have lines */
   double *box;                /* these nodes' lines, x fastest */
 };
 
 struct spill;
+struct line_page;
 
 /* From places (three whole numbers) to numbers. */
 struct place_table;
@@ -65,12 +72,13 @@ struct grid {
 
   size_t blocks, capacity;
   struct node_block *block;
-  double *line; /* blocks * block_nodes * LINE */
   struct place_table *table;
-  size_t spare_capacity; /* what the last sort left, taken by the next */
+  size_t spare_blocks, spare_capacity; /* what the last sort left, taken by the next */
   struct node_block *spare_block;
-  double *spare_line;
   struct place_table *spare_table;
+  struct line_page *page; /* where lines of blocks lie */
+  double *free_line;      /* first of the lines that no block has */
+  bool opened;            /* blocks got lines since planes were found */
 
   size_t sources, source_capacity;
   struct source *source; /* in the order of chunk.serial */
@@ -103,8 +111,12 @@ gamut_status grid_sources(struct grid *, size_t sources);
 /* Enters source number `index` at the block; its box is the whole tile until it leaves another. */
 void grid_source(struct grid *, size_t index, int32_t block);
 
-/* Number of the line of a node, or -1 where the grid has no block. */
-int64_t grid_line(const struct grid *, const int32_t node[3]);
+/* The block of a node and its number in it; null where the grid has none. */
+struct node_block *grid_block_at(const struct grid *, const int32_t node[3], size_t *index);
+/* Gives a block lines, zero, if it has none. */
+gamut_status grid_open(struct grid *, struct node_block *);
+/* Gives lines to the blocks that boxes reach. */
+gamut_status grid_open_reached(struct grid *);
 /* Place of node `index` of a block. */
 void grid_node(const struct grid *, const struct node_block *, size_t index, int32_t node[3]);
 

@@ -20,7 +20,10 @@ double plane_distance(const struct plane *p, const double x[3], double time)
 
 double *touched_line(const struct model *m, int32_t touched)
 {
-  return touched < 0 ? NULL : m->grid.line + (size_t)m->planes.touched[touched].line * LINE;
+  if (touched < 0)
+    return NULL;
+  const struct touched *t = &m->planes.touched[touched];
+  return m->grid.block[t->block].line + (size_t)t->index * LINE;
 }
 
 gamut_status planes_add(struct model *m, const struct gamut_plane *given,
@@ -75,7 +78,7 @@ void planes_destroy(struct model *m)
     gamut_release(m->run, ps->plane[i]);
   }
   gamut_release(m->run, ps->touched);
-  gamut_release(m->run, ps->of_line);
+  gamut_release(m->run, ps->of_node);
 }
 
 gamut_status planes_fix_origin(struct model *m)
@@ -127,29 +130,54 @@ static void node_place(const struct model *m, const int32_t node[3], double x[3]
     x[k] = k < m->dimension ? m->grid.origin[k] + m->cell * node[k] : 0.0;
 }
 
+/* Room for the numbers of a block's nodes. */
+static gamut_status numbers_of(struct model *m, struct node_block *b)
+{
+  struct planes *ps = &m->planes;
+  if (b->planes >= 0)
+    return GAMUT_OK;
+  const size_t nodes = m->grid.block_nodes, used = ps->of_nodes / nodes;
+  size_t capacity = ps->of_node_capacity / nodes;
+  void *array = ps->of_node;
+  if (room(m, &array, nodes * sizeof *ps->of_node, used, &capacity) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  ps->of_node = array;
+  ps->of_node_capacity = capacity * nodes;
+  b->planes = (int32_t)ps->of_nodes;
+  ps->of_nodes += nodes;
+  for (size_t i = 0; i < nodes; i++)
+    ps->of_node[(size_t)b->planes + i] = -1;
+  return GAMUT_OK;
+}
+
 /* The number of the touched node, entered for plane number `plane`; -1 where the grid has no node.
  */
 static gamut_status touch(struct model *m, const int32_t node[3], size_t plane, int32_t *number)
 {
   struct planes *ps = &m->planes;
+  size_t index;
   *number = -1;
-  const int64_t line = grid_line(&m->grid, node);
-  if (line < 0)
+  struct node_block *b = grid_block_at(&m->grid, node, &index);
+  if (b == NULL)
     return GAMUT_OK;
-  if (ps->of_line[line] < 0) {
+  if (grid_open(&m->grid, b) != GAMUT_OK || numbers_of(m, b) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  int32_t *known = &ps->of_node[(size_t)b->planes + index];
+  if (*known < 0) {
     void *array = ps->touched;
     if (room(m, &array, sizeof *ps->touched, ps->touches, &ps->touched_capacity) != GAMUT_OK)
       return GAMUT_INTERNAL;
     ps->touched = array;
     struct touched *t = &ps->touched[ps->touches];
     memset(t, 0, sizeof *t);
-    t->line = line;
+    t->block = (int32_t)(b - m->grid.block);
+    t->index = (int32_t)index;
     t->first = (int8_t)plane;
     t->owner[0] = t->owner[1] = t->owner[2] = -1;
     node_place(m, node, t->x);
-    ps->of_line[line] = (int32_t)ps->touches++;
+    *known = (int32_t)ps->touches++;
   }
-  *number = ps->of_line[line];
+  *number = *known;
   const struct plane *p = ps->plane[plane];
   for (int k = 0; k < 3; k++)
     if ((p->axis < 0 || p->odd[k]) && ps->touched[*number].owner[k] < 0)
@@ -227,28 +255,19 @@ static gamut_status find_in_block(struct model *m, size_t plane, const struct no
 gamut_status planes_find(struct model *m)
 {
   struct planes *ps = &m->planes;
-  const size_t lines = m->grid.blocks * m->grid.block_nodes;
-  if (ps->count == 0)
-    return GAMUT_OK;
-  if (lines > ps->of_line_capacity) {
-    gamut_release(m->run, ps->of_line);
-    ps->of_line_capacity = lines + lines / 8;
-    ps->of_line = gamut_allocate(m->run, "planes", ps->of_line_capacity * sizeof *ps->of_line);
-    if (ps->of_line == NULL)
-      return GAMUT_INTERNAL;
-  }
-  for (size_t i = 0; i < lines; i++)
-    ps->of_line[i] = -1;
-  ps->touches = 0;
+  ps->touches = ps->of_nodes = 0;
+  for (size_t b = 0; b < m->grid.blocks; b++)
+    m->grid.block[b].planes = -1;
   for (size_t i = 0; i < ps->count; i++) {
     ps->plane[i]->columns = ps->plane[i]->nodes = 0;
     for (size_t b = 0; b < m->grid.blocks; b++)
-      if (find_in_block(m, i, &m->grid.block[b]) != GAMUT_OK)
+      if (m->grid.block[b].line != NULL && find_in_block(m, i, &m->grid.block[b]) != GAMUT_OK)
         return GAMUT_INTERNAL;
   }
   for (size_t t = 0; t < ps->touches; t++)
     for (int k = 0; k < 3; k++)
       if (ps->touched[t].owner[k] < 0)
         ps->touched[t].owner[k] = ps->touched[t].first;
+  m->grid.opened = false;
   return GAMUT_OK;
 }

@@ -38,7 +38,8 @@ struct held_node {
 
 /* A node that some plane acts on, as it was before planes acted. */
 struct touched {
-  int64_t line;
+  int32_t block; /* of nodes */
+  int32_t index; /* in the block */
   double x[3];
   double mass, momentum[3], force[3];
   int8_t owner[3]; /* plane that its impulse is booked to, by component */
@@ -66,8 +67,8 @@ struct planes {
   bool any_moves;
   struct touched *touched;
   size_t touches, touched_capacity;
-  int32_t *of_line; /* number of a touched node by its line, or -1 */
-  size_t of_line_capacity;
+  int32_t *of_node; /* numbers of touched nodes, or -1, of the blocks that have some */
+  size_t of_nodes, of_node_capacity;
   double work, loss; /* by moving planes on the matter, and by impact and friction, in this step */
   double impulse[3], torque[3];
 };

@@ -25,21 +25,30 @@ static gamut_status room_for_lines(struct model *m)
 
 static void swap_lines(struct model *m)
 {
-  double *lines = m->grid.line;
-  m->grid.line = m->filter_line;
-  m->filter_line = lines;
+  for (size_t b = 0; b < m->grid.blocks; b++) {
+    struct node_block *block = &m->grid.block[b];
+    double *line = block->line;
+    block->line = line != NULL ? block->filter : NULL;
+    block->filter = line;
+  }
 }
 
 /* The nodes' velocity before the step, as momentum. */
-static void begin(struct model *m, size_t lines)
+static void begin(struct model *m)
 {
-  for (size_t i = 0; i < lines; i++) {
-    const double *from = m->grid.line + i * LINE;
-    double *to = m->filter_line + i * LINE;
-    memset(to, 0, LINE * sizeof *to);
-    to[LINE_SHARE] = from[LINE_SHARE];
-    for (int k = 0; k < 3; k++)
-      to[LINE_VELOCITY + k] = from[LINE_SHARE] * (from[LINE_VELOCITY + k] - from[LINE_CHANGE + k]);
+  const size_t nodes = m->grid.block_nodes;
+  for (size_t b = 0; b < m->grid.blocks; b++) {
+    struct node_block *block = &m->grid.block[b];
+    block->filter = m->filter_line + b * nodes * LINE;
+    for (size_t i = 0; i < nodes && block->line != NULL; i++) {
+      const double *from = block->line + i * LINE;
+      double *to = block->filter + i * LINE;
+      memset(to, 0, LINE * sizeof *to);
+      to[LINE_SHARE] = from[LINE_SHARE];
+      for (int k = 0; k < 3; k++)
+        to[LINE_VELOCITY + k] =
+            from[LINE_SHARE] * (from[LINE_VELOCITY + k] - from[LINE_CHANGE + k]);
+    }
   }
 }
 
@@ -92,49 +101,55 @@ static gamut_status pass(struct model *m)
   return step_project(m, false);
 }
 
-static void add_share(struct model *m, size_t lines, double share)
+static void add_share(struct model *m, double share)
 {
-  for (size_t i = 0; i < lines; i++)
-    for (size_t k = 0; k < 3; k++)
-      m->grid.line[i * LINE + LINE_CHANGE + k] +=
-          share * m->grid.line[i * LINE + LINE_VELOCITY + k];
+  for (size_t b = 0; b < m->grid.blocks; b++) {
+    double *line = m->grid.block[b].line;
+    for (size_t i = 0; i < m->grid.block_nodes && line != NULL; i++, line += LINE)
+      for (size_t k = 0; k < 3; k++)
+        line[LINE_CHANGE + k] += share * line[LINE_VELOCITY + k];
+  }
 }
 
-/* What planes gave the points by way of the filter: the difference of momentum that it makes. */
-static void book(struct model *m, size_t lines)
+/* What planes gave the points by way of the filter: the difference of momentum that it makes. Then
+ * the nodes take over what was filtered. */
+static void finish(struct model *m)
 {
-  for (size_t i = 0; i < lines; i++) {
-    const double *line = m->grid.line + i * LINE, *u = m->filter_line + i * LINE;
-    const int32_t touched = m->planes.count > 0 ? m->planes.of_line[i] : -1;
-    const double mass = touched < 0 ? line[LINE_SHARE] : m->planes.touched[touched].mass;
-    for (int k = 0; k < 3; k++)
-      m->planes.impulse[k] +=
-          mass * (u[LINE_CHANGE + k] - line[LINE_VELOCITY + k] + line[LINE_CHANGE + k]);
+  struct planes *ps = &m->planes;
+  for (size_t b = 0; b < m->grid.blocks; b++) {
+    const struct node_block *block = &m->grid.block[b];
+    for (size_t i = 0; i < m->grid.block_nodes && block->line != NULL; i++) {
+      double *line = block->line + i * LINE;
+      const double *u = block->filter + i * LINE;
+      const int32_t touched =
+          ps->count > 0 && block->planes >= 0 ? ps->of_node[(size_t)block->planes + i] : -1;
+      const double mass = touched < 0 ? line[LINE_SHARE] : ps->touched[touched].mass;
+      for (int k = 0; k < 3; k++) {
+        ps->impulse[k] +=
+            mass * (u[LINE_CHANGE + k] - line[LINE_VELOCITY + k] + line[LINE_CHANGE + k]);
+        line[LINE_CHANGE + k] += u[LINE_CHANGE + k];
+      }
+    }
   }
 }
 
 gamut_status step_filter(struct model *m)
 {
-  const size_t lines = m->grid.blocks * m->grid.block_nodes;
   if (room_for_lines(m) != GAMUT_OK)
     return GAMUT_INTERNAL;
-  begin(m, lines);
+  begin(m);
   swap_lines(m);
   gamut_status status = GAMUT_OK;
   double share = m->filter;
   step_settle(m);
-  add_share(m, lines, share);
+  add_share(m, share);
   for (int r = 2; r <= m->filter && status == GAMUT_OK; r++) {
     status = pass(m);
     share *= -(double)(m->filter - r + 1) / r;
-    add_share(m, lines, share);
+    add_share(m, share);
   }
   swap_lines(m);
-  if (status != GAMUT_OK)
-    return status;
-  book(m, lines);
-  for (size_t i = 0; i < lines; i++)
-    for (size_t k = 0; k < 3; k++)
-      m->grid.line[i * LINE + LINE_CHANGE + k] += m->filter_line[i * LINE + LINE_CHANGE + k];
-  return GAMUT_OK;
+  if (status == GAMUT_OK)
+    finish(m);
+  return status;
 }

@@ -9,9 +9,12 @@ enum { BLOCK_NODES_MAX = 64 };
 gamut_status step_collect(struct model *m)
 {
   struct grid *g = &m->grid;
-#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
+  if (grid_open_reached(g) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads) if (g->blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < g->blocks; b++)
-    grid_collect(g, &g->block[b], g->line + b * g->block_nodes * LINE);
+    if (g->block[b].line != NULL)
+      grid_collect(g, &g->block[b], g->block[b].line);
   return grid_forget_boxes(g);
 }
 
@@ -71,11 +74,11 @@ static void update_block(struct model *m, size_t b, double step)
   const struct node_block *block = &m->grid.block[b];
   const int side = m->grid.side, nx = side, ny = m->dimension > 1 ? side : 1,
             nz = m->dimension > 2 ? side : 1;
-  double *line = m->grid.line + b * m->grid.block_nodes * LINE, x[3] = {0.0, 0.0, 0.0};
+  double *line = block->line, x[3] = {0.0, 0.0, 0.0};
   double corner[3] = {0.0, 0.0, 0.0};
   for (unsigned k = 0; k < m->dimension; k++)
     corner[k] = m->grid.origin[k] + m->cell * (double)block->at[k] * side;
-  for (int k = 0; k < nz; k++) {
+  for (int k = 0; k < nz && line != NULL; k++) {
     x[2] = corner[2] + m->cell * k;
     for (int j = 0; j < ny; j++) {
       x[1] = corner[1] + m->cell * j;
@@ -108,13 +111,14 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
   (void)chunk;
   struct model *m = self;
   const double step = gamut_time_step(m->run);
-  if (m->planes.any_moves && planes_find(m) != GAMUT_OK)
-    return GAMUT_INTERNAL;
   if (!m->collected && step_collect(m) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  if ((m->planes.any_moves || m->grid.opened) && planes_find(m) != GAMUT_OK)
     return GAMUT_INTERNAL;
   m->collected = false;
   planes_before_update(m);
-#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
+#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads)                              \
+    if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     update_block(m, b, step);
   memset(&m->nodes, 0, sizeof m->nodes);
@@ -129,7 +133,9 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
 static void project_block(struct model *m, size_t b, bool carry)
 {
   double sum[BLOCK_NODES_MAX * LINE] __attribute__((aligned(64)));
-  double *lines = m->grid.line + b * m->grid.block_nodes * LINE;
+  double *lines = m->grid.block[b].line;
+  if (lines == NULL)
+    return;
   grid_collect(&m->grid, &m->grid.block[b], sum);
   for (size_t i = 0; i < m->grid.block_nodes; i++) {
     double *line = lines + i * LINE;
@@ -145,8 +151,8 @@ static void project_block(struct model *m, size_t b, bool carry)
 
 static void divide_block(struct model *m, size_t b)
 {
-  double *lines = m->grid.line + b * m->grid.block_nodes * LINE;
-  for (size_t i = 0; i < m->grid.block_nodes; i++) {
+  double *lines = m->grid.block[b].line;
+  for (size_t i = 0; i < m->grid.block_nodes && lines != NULL; i++) {
     double *line = lines + i * LINE;
     const double over = line[LINE_SHARE] > m->grid.empty ? 1.0 / line[LINE_SHARE] : 0.0;
     for (int k = 0; k < 3; k++)
@@ -157,7 +163,8 @@ static void divide_block(struct model *m, size_t b)
 void step_settle(struct model *m)
 {
   planes_before_second(m);
-#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
+#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads)                              \
+    if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     divide_block(m, b);
   planes_after_second(m);
@@ -165,7 +172,10 @@ void step_settle(struct model *m)
 
 gamut_status step_project(struct model *m, bool carry)
 {
-#pragma omp parallel for schedule(static) num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
+  if (grid_open_reached(&m->grid) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads)                              \
+    if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     project_block(m, b, carry);
   if (grid_forget_boxes(&m->grid) != GAMUT_OK)
