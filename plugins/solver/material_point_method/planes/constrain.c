@@ -244,7 +244,7 @@ gamut_status planes_after_update(struct model *m, double step)
   struct planes *ps = &m->planes;
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
-    p->area = 0.0;
+    contact_begin(p);
     for (size_t n = 0; n < p->nodes; n++) {
       struct held_node *node = &p->node[n];
       const struct touched *t = &ps->touched[node->touched];
@@ -255,7 +255,7 @@ gamut_status planes_after_update(struct model *m, double step)
       if (!node->contact)
         continue;
       if (plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell)
-        p->area += plane_node_area(m, p, t->x);
+        contact_add(m, p, t);
     }
   }
   for (size_t i = ps->count; i-- > 0;) {
@@ -271,7 +271,7 @@ gamut_status planes_after_update(struct model *m, double step)
         stop_arrival(m, p, &p->column[c]);
       if (p->given.friction > 0.0)
         column_friction(m, p, &p->column[c], step);
-      p->area += plane_node_area(m, p, ps->touched[p->column[c].touched[ON]].x);
+      contact_add(m, p, &ps->touched[p->column[c].touched[ON]]);
     }
   }
   return planes_book(m, step);

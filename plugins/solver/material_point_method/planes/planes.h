@@ -54,6 +54,7 @@ struct plane {
   bool odd[3];   /* by component: the velocity's difference from the plane's turns its sign */
   int32_t level; /* node number of the plane along its axis */
   double impulse[3], area;
+  double contact_mass, densest; /* of nodes in contact: mass, largest mass an area */
   struct column *column;
   size_t columns, column_capacity;
   struct held_node *node; /* with the condition node by node */
@@ -87,8 +88,9 @@ void planes_before_second(struct model *);
 void planes_after_second(struct model *);
 /* reaction.c: books impulses and work of the step, remembers contact. */
 gamut_status planes_book(struct model *, double step);
-/* Area of a plane that a node at x stands for. */
-double plane_node_area(const struct model *, const struct plane *, const double x[3]);
+/* reaction.c: the area in contact, begun anew in each step, by the nodes that are. */
+void contact_begin(struct plane *);
+void contact_add(const struct model *, struct plane *, const struct touched *);
 /* Line of the touched node of that number; null for -1. */
 double *touched_line(const struct model *, int32_t touched);
 /* Signed distance of a place from a plane, positive where matter may be. */

@@ -5,7 +5,8 @@
 #include "planes/planes.h"
 #include "model.h"
 
-double plane_node_area(const struct model *m, const struct plane *p, const double x[3])
+/* Area of a plane that a node at x stands for. */
+static double node_area(const struct model *m, const struct plane *p, const double x[3])
 {
   const double h = m->cell, pi = 3.14159265358979323846;
   switch (m->geometry) {
@@ -21,6 +22,30 @@ double plane_node_area(const struct model *m, const struct plane *p, const doubl
     break;
   }
   return h * h;
+}
+
+void contact_begin(struct plane *p)
+{
+  p->area = p->contact_mass = p->densest = 0.0;
+}
+
+/* At its edge a body gives nodes less mass than inside. So the area is the mass of all nodes in
+ * contact over that of a node, by its area, that is full, as the heaviest is taken to be. Not for
+ * an oblique plane, whose nodes lie at different depths: there as many count as do on average. */
+void contact_add(const struct model *m, struct plane *p, const struct touched *t)
+{
+  const double area = node_area(m, p, t->x);
+  const bool axis = m->geometry == GEOMETRY_AXISYMMETRIC && p->axis == 1 &&
+                    fabs(t->x[0]) < 1e-6 * m->cell;
+  p->area += area;
+  p->contact_mass += t->mass;
+  if (!axis && t->mass > p->densest * area)
+    p->densest = t->mass / area;
+}
+
+static double contact_area(const struct plane *p)
+{
+  return p->axis >= 0 && p->densest > 0.0 ? p->contact_mass / p->densest : p->area;
 }
 
 /* Books what planes did at the nodes they touch; these nodes are left out of the other sums. */
@@ -87,7 +112,7 @@ gamut_status planes_book(struct model *m, double step)
       p->reaction->force[k] = -p->impulse[k] / step;
       p->reaction->impulse[k] -= p->impulse[k];
     }
-    p->reaction->area = p->area;
+    p->reaction->area = p->area = contact_area(p);
     if (remember(m, p) != GAMUT_OK)
       return GAMUT_INTERNAL;
   }
