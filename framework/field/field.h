@@ -82,6 +82,8 @@ gamut_status set_arrange(struct point_set *, const uint32_t *source, size_t slot
  * The values of its arrays are then the caller's to set. */
 gamut_status set_reshape(struct point_set *, size_t points, const int64_t *id, size_t slots,
                          const size_t *first, size_t blocks, struct trace *);
+/* gamut_host.drop */
+void set_drop(struct point_set *, const uint32_t *slot, size_t count);
 double *set_stored(const struct point_set *, struct gamut_field, unsigned component);
 /* Slot that holds the point `id`, or SIZE_MAX. */
 size_t set_find(const struct point_set *, int64_t id);

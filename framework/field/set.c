@@ -210,6 +210,54 @@ done:
   return status;
 }
 
+static void copy_slot(struct point_set *set, size_t from, size_t to)
+{
+  for (size_t k = 0; k < fields_components(set->fields); k++)
+    if (set->array[k])
+      set->array[k][to] = set->array[k][from];
+}
+
+static void set_mass(struct point_set *set, size_t slot, double value)
+{
+  const struct field *mass = fields_find(set->fields, "mass");
+  if (mass && mass->stored)
+    set->array[mass->handle.first][slot] = value;
+}
+
+/* Points leave the block of slots first to end - 1; returns how many of the slots it saw. */
+static size_t drop_from_block(struct point_set *set, size_t first, size_t end,
+                              const uint32_t *slot, size_t count)
+{
+  size_t seen = 0, last = end;
+  while (seen < count && slot[seen] < end)
+    seen++;
+  while (last > first && set->id[last - 1] < 0)
+    last--;
+  for (size_t i = seen; i-- > 0; last--) {
+    if (slot[i] + 1 != last) {
+      copy_slot(set, last - 1, slot[i]);
+      set->id[slot[i]] = set->id[last - 1];
+    }
+    set->id[last - 1] = -1;
+    set->open.points--;
+  }
+  for (size_t i = last; i < end && seen > 0; i++) {
+    if (last > first)
+      copy_slot(set, last - 1, i);
+    set_mass(set, i, 0.0);
+  }
+  return seen;
+}
+
+void set_drop(struct point_set *set, const uint32_t *slot, size_t count)
+{
+  for (size_t b = 0; b < set->open.blocks && count > 0; b++) {
+    size_t seen = drop_from_block(set, set->first[b], set->first[b + 1], slot, count);
+    slot += seen;
+    count -= seen;
+  }
+}
+
 double *set_stored(const struct point_set *set, struct gamut_field field, unsigned component)
 {
   return set->array ? set->array[field.first + component] : NULL;

@@ -29,6 +29,7 @@
   X(external_force, GAMUT_AT_POINT, 3, "N", "force on the point from effects")                     \
   X(omega_squared, GAMUT_AT_POINT, 1, "1/s2",                                                      \
     "square of the highest frequency at the point; the step is bounded by 2/omega")                \
+  X(removal, GAMUT_AT_POINT, 1, "1", "mark of who takes the point out of the run; 0: nobody")      \
   X(step_factor, GAMUT_AT_POINT, 1, "1", "how much longer the next step may be than this one")     \
   X(compression, GAMUT_AT_POINT, 1, "1", "rho/rho0 - 1, mu")                                       \
   X(pressure, GAMUT_AT_POINT, 1, "Pa", "pressure of the eos, positive in compression")             \

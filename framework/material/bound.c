@@ -347,6 +347,13 @@ void material_step_factor_keep(struct bound_material *bound, double factor)
   bound->seat[0].step_factor = factor;
 }
 
+void material_spare(struct bound_material *bound, const struct spare *spare)
+{
+  for (size_t t = 0; t < bound->threads; t++)
+    for (int role = 0; role < ROLES; role++)
+      bound->seat[t].tally[role].spare = spare;
+}
+
 bool material_flag(const struct bound_material *bound, size_t index, struct flag_report *report)
 {
   for (int role = 0; role < ROLES; role++)

@@ -243,6 +243,12 @@ void effect_go_on(struct bound_effect *bound, const int64_t count[FLAG_COUNTS])
   tally_go_on(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat), count);
 }
 
+void effect_spare(struct bound_effect *bound, const struct spare *spare)
+{
+  for (size_t t = 0; t < bound->threads; t++)
+    bound->seat[t].tally.spare = spare;
+}
+
 bool effect_flag(const struct bound_effect *bound, size_t index, struct flag_report *report)
 {
   return tally_report(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat),

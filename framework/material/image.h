@@ -61,6 +61,7 @@ struct field *slot_field(const struct kernel *, size_t slot, struct fields *, st
 enum { TALLY_MESSAGES = FLAG_COUNTS };
 struct tally {
   uint64_t count[TALLY_MESSAGES];
+  const struct spare *spare; /* or null */
   bool stopped;
   size_t set;
   int64_t id;

@@ -114,6 +114,16 @@ bool material_stopped(struct bound_material *, struct flag_stop *);
 bool effect_flag(const struct bound_effect *, size_t index, struct flag_report *);
 bool effect_stopped(struct bound_effect *, struct flag_stop *);
 
+/* Points that a kernel stops may leave the run instead: their mark goes into the component of the
+ * field `removal`. */
+struct spare {
+  size_t component;
+  double *mark; /* one a set; 0: there the run stops. Null: everywhere */
+};
+/* Borrowed. */
+void material_spare(struct bound_material *, const struct spare *);
+void effect_spare(struct bound_effect *, const struct spare *);
+
 /* For checkpoints: the counts so far, and going on from those of another run. */
 enum { FLAG_COUNTS = 64, MATERIAL_COUNTS = 3 * FLAG_COUNTS };
 void material_counts(const struct bound_material *, int64_t count[MATERIAL_COUNTS]);

@@ -2,6 +2,13 @@
 
 #include "material/image.h"
 
+/* Where the marks of points that may leave go; null where the run stops. */
+static double *spared(const struct tally *tally, const struct gamut_chunk *chunk)
+{
+  const struct spare *spare = tally->spare;
+  return spare && spare->mark[chunk->set->index] > 0.0 ? chunk->end[spare->component] : NULL;
+}
+
 void tally_block(struct tally *tally, const int64_t *status, const struct gamut_chunk *chunk)
 {
   int64_t any = 0;
@@ -11,6 +18,7 @@ void tally_block(struct tally *tally, const int64_t *status, const struct gamut_
   if (!any)
     return;
   const int64_t *id = chunk->set->id + chunk->slot;
+  double *removal = spared(tally, chunk);
   for (size_t i = 0; i < chunk->count; i++) {
     if (!status[i] || id[i] < 0)
       continue;
@@ -20,6 +28,10 @@ void tally_block(struct tally *tally, const int64_t *status, const struct gamut_
     if (status[i] >> 8 != GAMUT_STOP)
       continue;
     size_t set = chunk->set->index;
+    if (removal) {
+      removal[i] = removal[i] > 0.0 ? removal[i] : tally->spare->mark[set];
+      continue;
+    }
     if (!tally->stopped || set < tally->set || (set == tally->set && id[i] < tally->id)) {
       tally->stopped = true;
       tally->set = set;

@@ -307,4 +307,6 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .body_points = host_body_points,
                                     .formula = host_formula,
                                     .formula_value = host_formula_value,
-                                    .formula_uses = host_formula_uses};
+                                    .formula_uses = host_formula_uses,
+                                    .removal = host_removal,
+                                    .drop = host_drop};

@@ -29,6 +29,9 @@ uint64_t host_realisation(const struct gamut_run *);
 gamut_status host_sample(struct gamut_run *, const struct gamut_values *, const char *path,
                          const char *name, size_t count, const double *const position[3],
                          const int64_t *id, double *value, bool *given);
+gamut_status host_removal(struct gamut_run *, const struct gamut_removal *,
+                          const struct gamut_removed **, double *mark);
+void host_drop(struct gamut_run *, struct gamut_set *, const uint32_t *slot, size_t count);
 bool host_domain(const struct gamut_run *, double lower[3], double upper[3]);
 
 #endif

@@ -54,6 +54,7 @@ struct probe {
   int64_t id;             /* the point that is followed */
   size_t slot;            /* where it was last */
   double distance;        /* of the point from the place asked for */
+  bool left;              /* the point is no longer there */
 };
 
 /* A field of the frames. One formula a material: materials may differ in elasticity. */
@@ -88,6 +89,8 @@ struct gamut_run {
   size_t jobs;
   struct gamut_law *law;            /* laws of the solver's own, a list */
   struct chance *chance;            /* random fields that were asked for, a list */
+  struct leaving *leaving;          /* effects that take points out, a list */
+  struct spare spare;               /* where flagged points go in place of a stop */
   struct lane_scratch **scratch;
   double **uniform;                 /* one a component */
   unsigned char *start_source;      /* where a chunk's tables lead while a run starts */
@@ -109,7 +112,7 @@ struct gamut_run {
   double wall, cpu;
   uint64_t checkpoint;    /* of `outputs.checkpoint.every`: how many have been due */
   double checkpoint_wall; /* when the last one was written */
-  uint64_t steps_before;  /* taken before the checkpoint that the run goes on from */
+  double work;            /* points updated by this process */
   bool started, resumed;
   gamut_status start; /* what came of it */
 };
@@ -139,6 +142,11 @@ gamut_status chance_draw(struct gamut_run *, const struct pointwise *, const str
 bool chance_at(const struct gamut_run *, size_t index, const char **path, const char **plugin);
 /* Fills the stored fields of such parameters of a set's material and of effects. */
 gamut_status chance_scatter(struct gamut_run *, const struct point_set *);
+
+/* host_removal.c: from the first step on flagged points may leave. */
+void removal_start(struct gamut_run *);
+/* Says what left the run. */
+void removal_warn(const struct gamut_run *, struct trace *);
 
 /* effects.c */
 gamut_status effects_create(struct gamut_run *);

@@ -37,6 +37,7 @@ gamut_status march_start(struct gamut_run *run)
   TRY(stop_check(run));
   ledger_start(run);
   TRY(observe_start(run));
+  removal_start(run);
 done:
   run->start = status;
   return status;
@@ -73,6 +74,14 @@ done:
   return status;
 }
 
+static uint64_t count_points(const struct gamut_run *run)
+{
+  uint64_t points = 0;
+  for (size_t s = 0; s < run->scene->bodies; s++)
+    points += run->set[s]->open.points;
+  return points;
+}
+
 gamut_status march_step(struct gamut_run *run, bool *more)
 {
   gamut_status status;
@@ -91,6 +100,7 @@ gamut_status march_step(struct gamut_run *run, bool *more)
   set_uniform_field(run, "time", run->time);
   const struct march march = {run->set,     run->scene->bodies, run->scratch,
                               run->uniform, run->threads,       run->chunk};
+  run->work += (double)count_points(run);
   TRY(schedule_step(run->schedule, &march));
   run->time = run->end > 0.0 && step >= run->end - run->time ? run->end : run->time + step;
   run->steps++;
@@ -104,21 +114,12 @@ done:
   return status;
 }
 
-static uint64_t count_points(const struct gamut_run *run)
-{
-  uint64_t points = 0;
-  for (size_t s = 0; s < run->scene->bodies; s++)
-    points += run->set[s]->open.points;
-  return points;
-}
-
 static void tell_progress(const struct gamut_run *run, double since)
 {
   if (!run->options.progress)
     return;
   double done = run->end > 0.0 ? run->time / run->end : 0.0;
-  double work = (double)(run->steps - run->steps_before) * (double)count_points(run);
-  double rate = since > 0.0 ? work / since : 0.0;
+  double rate = since > 0.0 ? run->work / since : 0.0;
   run->options.progress(run->options.progress_self, done, run->time, run->steps, rate);
 }
 

@@ -174,9 +174,33 @@ static gamut_status probe_value(struct gamut_run *run, struct probe *probe,
                     measure->name);
 }
 
+/* A point that leaves the run takes its history along: the last sample is the last value known. */
+static bool has_left(struct gamut_run *run, struct probe *probe)
+{
+  const struct quantity *q = probe->quantity;
+  struct history *history = probe->history;
+  const struct point_set *set = q->body >= 0 ? run->set[q->body] : NULL;
+  if (!from_points(q) || q->follow_space || !q->has_point || probe->left)
+    return probe->left;
+  if (probe->slot < set->open.slots && set->id[probe->slot] == probe->id)
+    return false;
+  probe->slot = set_find(set, probe->id);
+  probe->left = probe->slot == SIZE_MAX;
+  if (!probe->left)
+    return false;
+  history_tell(history, history->last_time, history->last_value, true);
+  trace_warn_at(run->trace, q->node ? &q->node->place : NULL, q->name, NULL,
+                "quantity '%s' follows point %lld of body '%s', which left the run before t = %.6g "
+                "%s: its history ends there",
+                q->name, (long long)probe->id, set->open.body, run->time, history->axis_unit);
+  return true;
+}
+
 static gamut_status tell(struct gamut_run *run, struct probe *probe, bool final)
 {
   gamut_status status;
+  if (has_left(run, probe))
+    return GAMUT_OK;
   double value = NAN, at = run->time;
   const struct measure *measure = probe->quantity->measure;
   TRY(probe_value(run, probe, measure, &value));

@@ -64,7 +64,7 @@ static gamut_status get_clock(const struct reading_back *r, struct store_place *
   TRY(get(r, "frames", CHECKPOINT_BYTES, &xdmf, &size));
   run->time = real[0];
   run->step = real[1];
-  run->steps = run->steps_before = (uint64_t)whole[0];
+  run->steps = (uint64_t)whole[0];
   *place = (struct store_place){.frames = (size_t)whole[1],
                                 .last_time = real[2],
                                 .last_step = (uint64_t)whole[2],

@@ -55,7 +55,8 @@ gamut_status run_finished(const struct scene *, const char *folder, struct trace
  * open. */
 gamut_status run_march(struct gamut_run *, struct trace *);
 
-/* Warns once of each thing that plugins warned of at points, with its count. */
+/* Warns once of each thing that plugins warned of at points, with its count, and of points that
+ * left the run. */
 void run_warn(const struct gamut_run *, struct trace *);
 
 /* What came out. Owned by the run. */

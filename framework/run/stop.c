@@ -24,8 +24,55 @@ static void describe_state(const struct gamut_run *run, const struct point_set *
         snprintf(text + used, size - used, " %.6g", array[slot]);
     }
     used = strlen(text);
-    if (used + 1 < size)
-      snprintf(text + used, size - used, " %s", strcmp(field->unit, "1") ? field->unit : "");
+    if (used + 1 < size && strcmp(field->unit, "1") != 0)
+      snprintf(text + used, size - used, " %s", field->unit);
+  }
+}
+
+/* " C0 3940 m/s": the number that the point has, where it differs from point to point. */
+static void describe_value(const struct gamut_run *run, const struct point_set *set, size_t slot,
+                           const struct instance *part, const struct value *value, char *text,
+                           size_t size)
+{
+  char path[512];
+  const char *unit = value->parameter->unit;
+  snprintf(path, sizeof path, "%s.%s", part->values->path, value->parameter->name);
+  const struct field *field = fields_find(run->fields, path);
+  const double *array = field && field->stored ? set_stored(set, field->handle, 0) : NULL;
+  if (value->text)
+    snprintf(text, size, " %s %s", value->parameter->name, value->text);
+  else
+    snprintf(text, size, " %s %.6g%s%s", value->parameter->name, array ? array[slot] : value->real,
+             unit && strcmp(unit, "1") != 0 ? " " : "",
+             unit && strcmp(unit, "1") != 0 ? unit : "");
+}
+
+static bool is_shown(enum value_type type)
+{
+  return type == VALUE_REAL || type == VALUE_INTEGER || type == VALUE_BOOLEAN ||
+         type == VALUE_CHOICE;
+}
+
+/* "; eos/mie_gruneisen: C0 3940 m/s, S1 1.489": what the point's material is made of. */
+static void describe_parameters(const struct gamut_run *run, const struct point_set *set,
+                                size_t slot, char *text, size_t size)
+{
+  const struct material *material = &run->scene->material[set->material];
+  const struct instance *part[] = {&material->elasticity, &material->strength, &material->eos};
+  snprintf(text, size, "; density %.6g kg/m3", material->density);
+  for (size_t p = 0; p < sizeof part / sizeof part[0]; p++) {
+    const struct values *values = part[p]->descriptor ? part[p]->values : NULL;
+    bool any = false;
+    for (size_t i = 0; values && i < values->count; i++) {
+      const struct value *value = &values->value[i];
+      size_t used = strlen(text);
+      if (!value->present || !is_shown(value->parameter->type) || used + 1 >= size)
+        continue;
+      snprintf(text + used, size - used, any ? "," : "; %s:", part[p]->descriptor->id);
+      used = strlen(text);
+      describe_value(run, set, slot, part[p], value, text + used, size - used);
+      any = true;
+    }
   }
 }
 
@@ -92,18 +139,20 @@ void describe_fastest(const struct gamut_run *run, char *text, size_t size)
 
 static gamut_status report(struct gamut_run *run, const struct flag_stop *stop)
 {
-  char state[768] = "";
+  char state[768] = "", made[900] = "";
   const struct point_set *set = run->set[stop->set];
   size_t slot = set_find(set, stop->id);
-  if (slot != SIZE_MAX)
+  if (slot != SIZE_MAX) {
     describe_state(run, set, slot, state, sizeof state);
+    describe_parameters(run, set, slot, made, sizeof made);
+  }
   return trace_fail(run->trace, GAMUT_NUMERICS,
                     "%s stopped the run at t = %.6g s, step %llu: %s. Point %lld of body '%s' "
-                    "(material '%s'): %s",
+                    "(material '%s'): %s%s",
                     stop->plugin->id, run->time, (unsigned long long)run->steps,
                     stop->message ? stop->message->text : "a point may not go on",
                     (long long)stop->id, set->open.body, run->scene->material[set->material].name,
-                    state);
+                    state, made);
 }
 
 gamut_status stop_check(struct gamut_run *run)

@@ -141,19 +141,20 @@ static void warn_of_flag(void *trace, const struct flag_report *report)
 void run_warn(const struct gamut_run *run, struct trace *trace)
 {
   each_flag(run, warn_of_flag, trace);
+  removal_warn(run, trace);
 }
 
 static json_t *cost_json(const struct gamut_run *run)
 {
   struct run_cost cost = run_cost_of(run);
-  double work = (double)cost.points * (double)(cost.steps - run->steps_before);
   json_t *entry = json_object();
   json_object_set_new(entry, "points", json_integer((json_int_t)cost.points));
   json_object_set_new(entry, "steps", json_integer((json_int_t)cost.steps));
   json_object_set_new(entry, "threads", json_integer(run->threads));
   json_object_set_new(entry, "wall_s", number(cost.wall));
   json_object_set_new(entry, "cpu_s", number(cost.cpu));
-  json_object_set_new(entry, "point_steps_per_s", number(cost.wall > 0.0 ? work / cost.wall : 0.0));
+  json_object_set_new(entry, "point_steps_per_s",
+                      number(cost.wall > 0.0 ? run->work / cost.wall : 0.0));
   json_object_set_new(entry, "bytes_per_point", number(cost.bytes_per_point));
   json_object_set_new(entry, "peak_bytes", json_integer((json_int_t)cost.peak));
   return entry;

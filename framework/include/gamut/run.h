@@ -29,7 +29,7 @@ enum {
 /* The points of one body and material. Read-only for plugins; the core keeps it current. Points are
  * cut into blocks: block b holds slots first[b] to first[b+1]-1, a multiple of GAMUT_LANES. Slots
  * at the end of a block that hold no point are padding: copies of the block's last point with zero
- * mass and id -1. */
+ * mass and id -1. Points may leave (see removal); a set may come to hold none. */
 struct gamut_set {
   const char *body;    /* name of its body, borrowed from the scene */
   size_t index;        /* number of the set, in the order of the scene's bodies */
@@ -138,6 +138,24 @@ struct gamut_reaction {
   double work;     /* done by the plane on the matter since the start, J */
   double area;     /* in contact, m2 */
   double impulse[3]; /* on the plane by the matter since the start, N s */
+};
+
+/* ---- removal: a service of solvers that let points leave the run ----------------------------- */
+
+/* What may go. An effect that asks for removal gets a mark. It takes a point out by writing the
+ * mark into the field `removal` (GAMUT_ADD, and only where that is still 0) in a phase before the
+ * solver puts points on its grid. The point is gone at the end of that step: nothing of it stays,
+ * and what it had is booked in the ledger under the effect's name. */
+struct gamut_removal {
+  bool flagged;  /* points at which a kernel says "stop" go as well; the run does not stop */
+  bool lost;     /* so do points that the solver cannot place, or whose state is no number */
+  bool expected; /* that matter leaves is what the scene is made for: no warning */
+  double most;   /* largest share of a body's mass at the start; beyond it the run stops. 0: all */
+};
+
+/* What one effect took since the start. Written by the solver after every step, in fixed order. */
+struct gamut_removed {
+  double points, mass, momentum[3], kinetic, internal;
 };
 
 /* ---- ledger ---------------------------------------------------------------------------------- */
@@ -299,6 +317,14 @@ struct gamut_host {
    * own number only. */
   double (*formula_value)(const struct gamut_formula *, int thread, const double *variable);
   bool (*formula_uses)(const struct gamut_formula *, size_t variable);
+
+  /* Asks the run's solver to let points leave, for the bodies that the effect works on. The sums
+   * are owned by the solver. In an effect's create. */
+  gamut_status (*removal)(struct gamut_run *, const struct gamut_removal *,
+                          const struct gamut_removed **, double *mark);
+  /* Takes the points in these slots (ascending) out of a set. In each block its last points take
+   * the free slots, so that padding stays at the end. Between steps; for solvers. */
+  void (*drop)(struct gamut_run *, struct gamut_set *, const uint32_t *slot, size_t count);
 };
 
 /* Every run begins with its host; the rest is the core's. */

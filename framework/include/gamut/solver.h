@@ -40,6 +40,12 @@
   /* optional, with save. Makes a solver that has just started from the same scene, whose sets and \
    * stored fields already stand as they were, go on where the saved one stood: to the same bits,  \
    * with any number of threads. On failure returns a status after gamut_fail. */                  \
-  gamut_status (*restore)(void *self, const void *bytes, size_t size);
+  gamut_status (*restore)(void *self, const void *bytes, size_t size);                             \
+  /* optional: required by effects that ask for removal. `name` is for the ledger; on_body[i] says \
+   * whether points of body i may go. Both outlive the solver. Called while effects are created.   \
+   */                                                                                              \
+  gamut_status (*removal)(void *self, const char *name, const bool *on_body,                       \
+                          const struct gamut_removal *, const struct gamut_removed **,             \
+                          double *mark);
 
 #endif

@@ -85,6 +85,39 @@ gamut_status ledger_open(struct model *m)
   return status;
 }
 
+gamut_status ledger_open_taker(struct model *m, struct taker *t)
+{
+  static const char *const momentum[3] = {"momentum_x", "momentum_y", "momentum_z"};
+  static const char *const spin[3] = {"angular_momentum_x", "angular_momentum_y",
+                                      "angular_momentum_z"};
+  gamut_status status = line(m, "mass", t->name, "kg", GAMUT_LOST, &t->mass_line);
+  if (status == GAMUT_OK)
+    status = line(m, "energy", t->name, "J", GAMUT_LOST, &t->energy_line);
+  for (unsigned k = 0; k < 3; k++) {
+    if (keeps_momentum(m, k) && status == GAMUT_OK)
+      status = line(m, momentum[k], t->name, "kg m/s", GAMUT_LOST, &t->momentum_line[k]);
+    if (keeps_spin(m, k) && status == GAMUT_OK)
+      status = line(m, spin[k], t->name, "kg m2/s", GAMUT_LOST, &t->spin_line[k]);
+  }
+  return status;
+}
+
+/* What left the run since the start. */
+static void show_taken(const struct model *m)
+{
+  for (size_t i = 0; i < m->removal.takers; i++) {
+    const struct taker *t = m->removal.taker[i];
+    *t->mass_line = t->total.mass;
+    *t->energy_line = t->total.kinetic + t->total.internal;
+    for (unsigned k = 0; k < 3; k++) {
+      if (t->momentum_line[k] != NULL)
+        *t->momentum_line[k] = t->total.momentum[k];
+      if (t->spin_line[k] != NULL)
+        *t->spin_line[k] = t->spin[k];
+    }
+  }
+}
+
 void ledger_add_up(const struct model *m, double total[POINT_SUMS])
 {
   memset(total, 0, POINT_SUMS * sizeof *total);
@@ -120,18 +153,21 @@ void ledger_start(struct model *m)
 void ledger_keep(struct model *m, double step)
 {
   struct ledger *l = &m->ledger;
+  const double *gone = m->removal.now; /* came back from the grid, and then left */
   double was[POINT_SUMS];
   memcpy(was, l->now, sizeof was);
   ledger_add_up(m, l->now);
   show_stored(m);
+  show_taken(m);
   /* the force stood at its place during the step while the velocity changed by force / mass */
   const double external = step * (was[SUM_POWER] + step * was[SUM_MOBILITY]);
   *l->external_work += external;
   *l->plane_work += m->planes.work;
   *l->impact_loss += m->planes.loss;
   *l->scatter_loss += was[SUM_KINETIC] - m->nodes.kinetic_before;
-  *l->gather_loss += m->nodes.kinetic_after - l->now[SUM_KINETIC];
-  *l->remainder += external - m->nodes.work - (l->now[SUM_INTERNAL] - was[SUM_INTERNAL]);
+  *l->gather_loss += m->nodes.kinetic_after - (l->now[SUM_KINETIC] + gone[GONE_KINETIC]);
+  *l->remainder += external - m->nodes.work -
+                   (l->now[SUM_INTERNAL] + gone[GONE_INTERNAL] - was[SUM_INTERNAL]);
   for (unsigned k = 0; k < 3; k++) {
     if (l->forward[k] != NULL) {
       *l->external_impulse[k] += step * was[SUM_FORCE + k];
@@ -141,7 +177,7 @@ void ledger_keep(struct model *m, double step)
     if (l->round[k] != NULL) {
       *l->external_torque[k] += step * was[SUM_TORQUE + k];
       *l->plane_torque[k] += m->planes.torque[k];
-      *l->spin_loss[k] += m->nodes.spin_after[k] - l->now[SUM_SPIN + k];
+      *l->spin_loss[k] += m->nodes.spin_after[k] - (l->now[SUM_SPIN + k] + gone[GONE_SPIN + k]);
     }
   }
 }

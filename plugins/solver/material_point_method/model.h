@@ -10,6 +10,7 @@
 
 #include "planes/planes.h"
 #include "grid/grid.h"
+#include "points/removal.h"
 #include "transfer/transfer.h"
 
 enum geometry { GEOMETRY_1D, GEOMETRY_PLANE_STRAIN, GEOMETRY_AXISYMMETRIC, GEOMETRY_3D };
@@ -69,7 +70,7 @@ struct ledger {
 struct fields {
   struct gamut_field position, velocity, mass, volume_ratio, stress, energy, velocity_gradient,
       external_force, sound_speed, omega_squared, cell_size, reference_volume, domain_length,
-      affine_velocity;
+      affine_velocity, removal;
 };
 
 struct model {
@@ -94,6 +95,7 @@ struct model {
   struct grid grid;
   bool origin_fixed[3];
   struct planes planes;
+  struct removals removal;
   struct transfer transfer;
   struct work **work; /* one a thread */
   int threads;
@@ -154,6 +156,8 @@ void sums_forces(struct work *, const struct point_view *);
 
 /* ledger.c */
 gamut_status ledger_open(struct model *);
+/* The lines of who takes points out. */
+gamut_status ledger_open_taker(struct model *, struct taker *);
 void ledger_start(struct model *);
 void ledger_keep(struct model *, double step);
 /* Sums over all points, block by block. */

@@ -30,9 +30,11 @@ static void pass(struct archive *a, void *data, size_t bytes)
 /* Bytes from one build are nothing to another that lays its memory out otherwise. */
 static void pass_layout(const struct model *m, struct archive *a)
 {
-  const uint64_t own[] = {
-      sizeof(struct node_block), sizeof(struct source), sizeof(struct node_sums), POINT_SUMS, LINE,
-      m->grid.tile_nodes,        m->grid.block_nodes,   m->planes.count};
+  const uint64_t own[] = {sizeof(struct node_block), sizeof(struct source),
+                          sizeof(struct node_sums),  POINT_SUMS,
+                          LINE,                      m->grid.tile_nodes,
+                          m->grid.block_nodes,       m->planes.count,
+                          m->removal.takers};
   uint64_t found[sizeof own / sizeof *own];
   memcpy(found, own, sizeof own);
   pass(a, found, sizeof found);
@@ -115,7 +117,23 @@ static void room_for_sums(struct model *m, struct archive *a)
     m->node_capacity = m->grid.blocks;
     m->node_sum = gamut_allocate(m->run, "sums", m->node_capacity * sizeof *m->node_sum);
   }
-  a->failed |= m->block_sum == NULL || m->block_omega == NULL || m->node_sum == NULL;
+  a->failed |= m->block_sum == NULL || m->block_omega == NULL || m->node_sum == NULL ||
+               removal_room(m) != GAMUT_OK;
+}
+
+/* What left the run so far; sums of single steps are empty between two of them. */
+static void pass_removal(struct model *m, struct archive *a)
+{
+  struct removals *r = &m->removal;
+  pass(a, &r->since_sort, sizeof r->since_sort);
+  pass(a, &r->sort_due, sizeof r->sort_due);
+  for (size_t i = 0; i < r->takers; i++) {
+    struct taker *t = r->taker[i];
+    pass(a, &t->told, sizeof t->told);
+    pass(a, &t->total, sizeof t->total);
+    pass(a, t->spin, sizeof t->spin);
+    pass(a, t->of_body, m->bodies * sizeof *t->of_body);
+  }
 }
 
 /* Nodes that a plane held in the last step. */
@@ -182,6 +200,7 @@ static void pass_model(struct model *m, struct archive *a)
   pass(a, m->block_sum, m->grid.sources * POINT_SUMS * sizeof *m->block_sum);
   pass(a, m->block_omega, m->grid.sources * sizeof *m->block_omega);
   pass_planes(m, a);
+  pass_removal(m, a);
 }
 
 size_t model_save(const void *self, void *bytes)

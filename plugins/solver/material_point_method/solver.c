@@ -46,6 +46,7 @@ static void destroy(void *self)
     return;
   struct gamut_run *run = m->run;
   planes_destroy(m);
+  removal_destroy(m);
   grid_destroy(&m->grid);
   for (int t = 0; m->work != NULL && t < m->threads; t++) {
     if (m->work[t] == NULL)
@@ -175,7 +176,8 @@ static gamut_status find_fields(struct model *m)
                 {"omega_squared", &f->omega_squared},
                 {"cell_size", &f->cell_size},
                 {"domain_length", &f->domain_length},
-                {"affine_velocity", &f->affine_velocity}};
+                {"affine_velocity", &f->affine_velocity},
+                {"removal", &f->removal}};
   gamut_status status = GAMUT_OK;
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted && status == GAMUT_OK; i++)
     status = gamut_field_named(m->run, wanted[i].name, wanted[i].field);
@@ -230,6 +232,8 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
     status = step_register(m);
   if (status == GAMUT_OK)
     status = ledger_open(m);
+  if (status == GAMUT_OK && m->bounded && strcmp(gamut_text(values, "domain.outside"), "stop") != 0)
+    status = removal_open_domain(m);
   if (status == GAMUT_OK && m->geometry == GEOMETRY_AXISYMMETRIC) {
     const struct gamut_plane axis = {.normal = {1.0, 0.0, 0.0},
                                      .normal_rule = GAMUT_PLANE_MIRROR,
@@ -259,6 +263,8 @@ static gamut_status start(void *self)
     status = m->host->start_material(m->run, m->body[i].set);
   if (status == GAMUT_OK)
     status = step_first_scatter(m);
+  if (status == GAMUT_OK)
+    status = removal_start(m);
   if (status == GAMUT_OK)
     ledger_start(m);
   return status;
@@ -290,10 +296,12 @@ static gamut_status next(void *self, double *step)
   if (m->fixed_step == 0.0 && *step < left && left < 2.0 * *step)
     *step = 0.5 * left;
   const double ahead = m->nodes.speed * *step / m->cell;
-  if (m->moved <= sort_after && m->moved + ahead <= sort_before)
-    return GAMUT_OK;
-  if (m->taken == 0 || m->moved == 0.0)
-    return GAMUT_OK;
+  if (!m->removal.sort_due) {
+    if (m->moved <= sort_after && m->moved + ahead <= sort_before)
+      return GAMUT_OK;
+    if (m->taken == 0 || m->moved == 0.0)
+      return GAMUT_OK;
+  }
   if (step_collect(m) != GAMUT_OK)
     return GAMUT_INTERNAL;
   m->collected = true;
@@ -325,8 +333,12 @@ static gamut_status after(void *self)
   m->last_step = step;
   m->taken++;
   tell_domains(m);
-  ledger_keep(m, step);
-  return GAMUT_OK;
+  gamut_status status = removal_keep(m);
+  if (status == GAMUT_OK) {
+    ledger_keep(m, step);
+    status = removal_check(m);
+  }
+  return status;
 }
 
 static gamut_status plane(void *self, const struct gamut_plane *given,
@@ -352,4 +364,4 @@ static gamut_status describe(void *self, double *step, char *text, size_t size)
 
 GAMUT_SOLVER(material_point_method, .create = create, .destroy = destroy, .start = start,
              .next = next, .after = after, .plane = plane, .measure = measure, .describe = describe,
-             .save = model_save, .restore = model_restore)
+             .save = model_save, .restore = model_restore, .removal = removal_add)

@@ -162,7 +162,7 @@ static gamut_status room_for_sums(struct model *m)
     if (m->node_capacity == 0)
       return GAMUT_INTERNAL;
   }
-  return GAMUT_OK;
+  return removal_room(m);
 }
 
 /* Sorts every set and notes, source by source, the blocks of nodes they lie in. */

@@ -188,7 +188,8 @@ static gamut_status over_field(struct model *m, const struct cloud *c, enum redu
   }
   if (how == FRONT && !isfinite(most))
     most = sum; /* nowhere yet: the body's lowest point */
-  *value = how == MEAN ? sum / weight : most;
+  /* a body that has lost all its points has no such value */
+  *value = c->set->points == 0 ? NAN : how == MEAN ? sum / weight : most;
   return GAMUT_OK;
 }
 

@@ -96,6 +96,7 @@ static gamut_status register_scatter(struct model *m)
   use(&u, "energy", GAMUT_READ_IF);
   use(&u, "external_force", GAMUT_READ_IF);
   use(&u, "omega_squared", GAMUT_READ);
+  use(&u, "removal", GAMUT_READ_IF);
   if (m->shape == SHAPE_GIMP)
     use(&u, "domain_length", GAMUT_READ);
   if (m->rule == RULE_APIC)

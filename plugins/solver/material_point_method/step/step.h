@@ -30,11 +30,7 @@ gamut_status scatter_view(struct model *, struct work *, const struct gamut_set 
 /* stray.c: `x` and `v` are the position and the velocity of the points. */
 struct locate locate_in(const struct model *, size_t serial, const double *const x[3],
                         size_t count);
-/* Names the point that left the tile of its block. */
+/* Names a point that left the tile of its block. */
 gamut_status find_stray(const struct model *, const struct gamut_set *, size_t slot,
                         const struct locate *, const double *const x[3], const double *const v[3]);
-/* Whether all points are in the domain, and beside the axis. */
-gamut_status check_domain(const struct model *, const struct gamut_set *, size_t slot, size_t count,
-                          const double *const x[3], const double *const v[3]);
-
 #endif

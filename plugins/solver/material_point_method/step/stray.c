@@ -1,5 +1,6 @@
 /* Where the points of a chunk lie in the tile of their block, and those that lie nowhere. */
 #include <math.h>
+#include <stdio.h>
 
 #include "step/step.h"
 
@@ -36,20 +37,68 @@ gamut_status find_stray(const struct model *m, const struct gamut_set *set, size
   return gamut_fail(m->run, GAMUT_INTERNAL, "a point left its block, but none is outside");
 }
 
-gamut_status check_domain(const struct model *m, const struct gamut_set *set, size_t slot,
-                          size_t count, const double *const x[3], const double *const v[3])
+/* Strays are only noted: every chunk of the step is looked at, and the first of all is named. */
+static void note(struct model *m, const struct gamut_set *set, size_t slot, const char *what)
+{
+  struct stray *first = &m->removal.stray;
+#pragma omp critical(material_point_method_stray)
+  {
+    const bool before = first->count == 0 || set->index < first->set->index ||
+                        (set == first->set && set->id[slot] < set->id[first->slot]);
+    if (before) {
+      first->set = set;
+      first->slot = slot;
+      first->what = what;
+    }
+    first->count++;
+  }
+}
+
+void stray_outside_tile(struct model *m, const struct gamut_set *set, size_t slot,
+                        const struct locate *l, const double *const x[3], const double *const v[3])
+{
+  for (size_t i = 0; i < l->count; i++)
+    for (unsigned k = 0; k < m->dimension && set->id[slot + i] >= 0; k++) {
+      const double at = x[k][i] * l->inverse_cell - l->origin[k];
+      if (at >= 0.0 && at < m->grid.side + 2)
+        continue;
+      note(m, set, slot + i,
+           isfinite(x[k][i]) && isfinite(v[k][i])
+               ? "it went farther than a cell in a step or two: the time step is too "
+                 "long or the run is unstable"
+               : "its position or velocity is not a number: the time step is too long "
+                 "or the material failed");
+      break;
+    }
+}
+
+void stray_outside_domain(struct model *m, const struct gamut_set *set, size_t slot, size_t count,
+                          const double *const x[3], const double *mass)
 {
   for (size_t i = 0; i < count; i++) {
     bool inside = true;
     for (unsigned k = 0; k < m->dimension; k++)
       inside = inside && x[k][i] >= m->lower[k] && x[k][i] <= m->upper[k];
-    if (inside && (m->geometry != GEOMETRY_AXISYMMETRIC || x[0][i] > 0.0))
+    if (mass[i] == 0.0 || (inside && (m->geometry != GEOMETRY_AXISYMMETRIC || x[0][i] > 0.0)))
       continue;
-    const double place[3] = {x[0][i], x[1][i], x[2][i]}, speed[3] = {v[0][i], v[1][i], v[2][i]};
-    return point_failed((struct model *)m, set, slot + i, place, speed,
-                        inside ? "it crossed the axis: the time step is too long or the cell too "
-                                 "large"
-                               : "it left the domain; a larger solver.domain lets it go on");
+    note(m, set, slot + i,
+         inside ? "it crossed the axis: the time step is too long or the cell too large"
+                : "it left the domain; a larger solver.domain lets it go on, outside: remove takes "
+                  "such points out of the run");
   }
-  return GAMUT_OK;
+}
+
+gamut_status stray_fail(struct model *m)
+{
+  const struct stray *first = &m->removal.stray;
+  double x[3], v[3];
+  char what[400], more[64] = "";
+  for (unsigned k = 0; k < 3; k++) {
+    x[k] = m->host->stored(first->set, m->field.position, k)[first->slot];
+    v[k] = m->host->stored(first->set, m->field.velocity, k)[first->slot];
+  }
+  if (first->count > 1)
+    snprintf(more, sizeof more, " (and %zu more in this step)", first->count - 1);
+  snprintf(what, sizeof what, "%s%s", first->what, more);
+  return point_failed(m, first->set, first->slot, x, v, what);
 }

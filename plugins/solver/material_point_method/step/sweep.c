@@ -96,11 +96,14 @@ gamut_status renew_momentum(void *self, const struct gamut_chunk *chunk)
   if (moves) {
     const double *const carry[3] = {w->value[0], w->value[1], w->value[2]};
     move(m, chunk, carry);
+    removal_take_moved(m, chunk);
     components(chunk, m->field.position, 3, true, view.position);
     l = locate_in(m, chunk->serial, view.position, chunk->count);
     find_domains(m, chunk, &l);
-    if (!m->transfer.locate(w, &l, true))
-      return find_stray(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
+    if (!m->transfer.locate(w, &l, true)) {
+      stray_outside_tile(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
+      return GAMUT_OK;
+    }
   }
   m->transfer.scatter_momentum(w, &view, m->cell);
   return GAMUT_OK;
@@ -196,14 +199,16 @@ gamut_status scatter_view(struct model *m, struct work *w, const struct gamut_se
   struct locate l = locate_in(m, serial, view->position, view->count);
   for (unsigned k = 0; k < m->dimension; k++)
     l.length[k] = view->length[k];
-  if (!m->transfer.locate(w, &l, true))
-    return find_stray(m, set, slot, &l, view->position, view->velocity);
+  if (!m->transfer.locate(w, &l, true)) {
+    stray_outside_tile(m, set, slot, &l, view->position, view->velocity);
+    return GAMUT_OK;
+  }
   m->transfer.scatter(w, view, m->cell);
   sums_motion(w, view, energy);
   if (view->force[0] != NULL)
     sums_forces(w, view);
   if (m->bounded || m->geometry == GEOMETRY_AXISYMMETRIC)
-    return check_domain(m, set, slot, view->real, view->position, view->velocity);
+    stray_outside_domain(m, set, slot, view->real, view->position, view->mass);
   return GAMUT_OK;
 }
 
@@ -222,6 +227,9 @@ gamut_status scatter_points(void *self, const struct gamut_chunk *chunk)
     components(chunk, m->field.domain_length, 3, true, view.length);
   if (m->rule == RULE_APIC)
     components(chunk, m->field.affine_velocity, 9, true, view.affine);
+  const gamut_status taken = removal_take(m, chunk);
+  if (taken != GAMUT_OK)
+    return taken;
   const double *omega = gamut_end(chunk, m->field.omega_squared, 0);
   double most = w->omega_squared;
 #pragma omp simd reduction(max : most)

@@ -187,5 +187,8 @@ gamut_status step_project(struct model *m, bool carry)
 gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
 {
   (void)chunk;
-  return step_project(self, true);
+  struct model *m = self;
+  if (m->removal.stray.count > 0)
+    return stray_fail(m);
+  return step_project(m, true);
 }

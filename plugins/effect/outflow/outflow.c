@@ -1,0 +1,97 @@
+#include <string.h>
+
+#include "outflow.gamut.h"
+
+struct outflow_effect {
+  double normal[3], level; /* of the plane: level = point . normal */
+  double mark;
+  const struct gamut_removed *left;
+  struct gamut_field position, removal;
+};
+
+static gamut_status take(void *self, const struct gamut_chunk *chunk)
+{
+  const struct outflow_effect *e = self;
+  const double *x = gamut_end(chunk, e->position, 0), *y = gamut_end(chunk, e->position, 1),
+               *z = gamut_end(chunk, e->position, 2);
+  const double nx = e->normal[0], ny = e->normal[1], nz = e->normal[2], level = e->level;
+  const double mark = e->mark;
+  double *removal = gamut_end(chunk, e->removal, 0);
+  GAMUT_EACH (i, chunk) {
+    const bool goes = x[i] * nx + y[i] * ny + z[i] * nz < level;
+    removal[i] = goes && removal[i] == 0.0 ? mark : removal[i];
+  }
+  return GAMUT_OK;
+}
+
+static gamut_status read_plane(struct gamut_run *run, const struct gamut_values *values,
+                               struct outflow_effect *e)
+{
+  size_t count;
+  const double *n = gamut_vector(values, "plane.normal", &count);
+  double square = 0.0;
+  for (size_t k = 0; k < count && k < 3; k++) {
+    e->normal[k] = n[k];
+    square += n[k] * n[k];
+  }
+  if (!(square > 0.0))
+    return gamut_fail_at(run, values, "plane.normal", "a direction towards the matter that stays",
+                         "the normal has no length");
+  const double *point = gamut_vector(values, "plane.point", &count);
+  for (size_t k = 0; k < count && k < 3; k++)
+    e->level += point[k] * e->normal[k];
+  return GAMUT_OK;
+}
+
+static gamut_status open_task(struct gamut_run *run, struct outflow_effect *e)
+{
+  static const struct gamut_use uses[] = {{"position", GAMUT_READ}, {"removal", GAMUT_ADD}};
+  static const struct gamut_removal rule = {.expected = true};
+  const struct gamut_task task = {.name = "outflow",
+                                  .phase = "removal",
+                                  .extent = GAMUT_PER_CHUNK,
+                                  .uses = uses,
+                                  .use_count = sizeof uses / sizeof *uses,
+                                  .run = take,
+                                  .self = e};
+  gamut_status status = GAMUT_HOST(run)->removal(run, &rule, &e->left, &e->mark);
+  if (status == GAMUT_OK)
+    status = gamut_field_named(run, "position", &e->position);
+  if (status == GAMUT_OK)
+    status = gamut_field_named(run, "removal", &e->removal);
+  return status == GAMUT_OK ? gamut_add_task(run, &task) : status;
+}
+
+static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
+{
+  struct outflow_effect *e = gamut_allocate(run, "outflow", sizeof *e);
+  if (e == NULL)
+    return GAMUT_INTERNAL;
+  gamut_status status = read_plane(run, values, e);
+  if (status == GAMUT_OK)
+    status = open_task(run, e);
+  if (status != GAMUT_OK)
+    gamut_release(run, e);
+  else
+    *self = e;
+  return status;
+}
+
+static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
+                            const struct gamut_values *arguments, double *value)
+{
+  (void)body;
+  const struct outflow_effect *e = self;
+  const struct gamut_removed *left = e->left;
+  if (strcmp(name, "left_mass") == 0)
+    *value = left->mass;
+  else if (strcmp(name, "left_momentum") == 0)
+    *value = left->momentum[gamut_text(arguments, "axis")[0] - 'x'];
+  else if (strcmp(name, "left_energy") == 0)
+    *value = left->kinetic + left->internal;
+  else
+    *value = left->points;
+  return GAMUT_OK;
+}
+
+GAMUT_EFFECT(outflow, .create = create, .measure = measure)

@@ -1,0 +1,79 @@
+/* Points that leave the run: who takes them out, and what they take along. */
+#ifndef MATERIAL_POINT_METHOD_REMOVAL_H
+#define MATERIAL_POINT_METHOD_REMOVAL_H
+
+#include <gamut/run.h>
+
+/* What points had that left a block. */
+enum gone_sum {
+  GONE_POINTS,
+  GONE_MASS,
+  GONE_MOMENTUM,
+  GONE_SPIN = GONE_MOMENTUM + 3,
+  GONE_KINETIC = GONE_SPIN + 3,
+  GONE_INTERNAL,
+  GONE_SUMS
+};
+
+struct taker {
+  const char *name;
+  const bool *on_body; /* null: of all bodies */
+  bool lost, told;
+  double most; /* share of a body's mass; 0: all */
+  struct gamut_removed total;
+  double spin[3];
+  double *of_body; /* mass taken of each body */
+  double *mass_line, *energy_line, *momentum_line[3], *spin_line[3]; /* or null */
+};
+
+/* The first of the points that are nowhere in this step, by set and id. */
+struct stray {
+  size_t count, slot;
+  const struct gamut_set *set;
+  const char *what;
+};
+
+struct removals {
+  struct taker **taker; /* a mark is the number of its taker, from 1 */
+  size_t takers;
+  struct taker *outside; /* takes what leaves the domain; null: the run stops */
+  double *body_mass;     /* at the start */
+  double *gone;          /* GONE_SUMS a taker, of each block of points */
+  size_t room;
+  double now[GONE_SUMS]; /* of the step just taken */
+  size_t since_sort;     /* points that left */
+  bool sort_due;
+  struct stray stray;
+};
+
+struct model;
+struct locate;
+
+/* The operation `removal` of the solver. */
+gamut_status removal_add(void *self, const char *name, const bool *on_body,
+                         const struct gamut_removal *, const struct gamut_removed **, double *mark);
+/* For what leaves the domain. */
+gamut_status removal_open_domain(struct model *);
+void removal_destroy(struct model *);
+/* After the points are there: what bodies have, and whether all of it is somewhere. */
+gamut_status removal_start(struct model *);
+/* Room for sums, after blocks of points have changed. */
+gamut_status removal_room(struct model *);
+
+/* In a sweep, before a chunk is scattered: points that leave become massless. */
+gamut_status removal_take(struct model *, const struct gamut_chunk *);
+/* Where points move in a sweep of their own, after that: those that are then nowhere go. */
+void removal_take_moved(struct model *, const struct gamut_chunk *);
+/* After a step: adds up what left and takes it out of the sets; says which points are lost. */
+gamut_status removal_keep(struct model *);
+/* After the ledger: whether somebody took too much. */
+gamut_status removal_check(struct model *);
+
+/* Points that lie outside the tile or the domain: the step is finished, then the run stops. */
+void stray_outside_tile(struct model *, const struct gamut_set *, size_t slot,
+                        const struct locate *, const double *const x[3], const double *const v[3]);
+void stray_outside_domain(struct model *, const struct gamut_set *, size_t slot, size_t count,
+                          const double *const x[3], const double *mass);
+gamut_status stray_fail(struct model *);
+
+#endif
