@@ -64,6 +64,7 @@ struct point_set {
   size_t blocks_capacity;
   double **array;     /* one a component: stored array or null */
   double *spare;      /* for arrange */
+  int threads;        /* that arrange may use; 0 and 1: no others */
   size_t material;
 };
 /* The whole set of its public part, and the number of its material. */

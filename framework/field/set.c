@@ -6,6 +6,8 @@
 /* Arrays begin at different offsets within a page: equal ones alias in the first-level cache. */
 enum { STAGGER = 40, STAGGERS = 12, SLACK = STAGGER * STAGGERS };
 #define PADDING UINT32_C(0x80000000)
+/* Below so many slots threads cost more than they give. */
+enum { FEW_SLOTS = 1 << 14 };
 
 struct point_set *set_inside(const struct gamut_set *set)
 {
@@ -20,7 +22,7 @@ size_t set_material(const struct gamut_set *set)
 /* Slots for so many points and the padding that blocks of a usual size need. */
 static size_t with_padding(size_t points)
 {
-  return (points + points / 32 + 2 * GAMUT_LANES - 1) / GAMUT_LANES * GAMUT_LANES;
+  return (points + points / 64 + 2 * GAMUT_LANES - 1) / GAMUT_LANES * GAMUT_LANES;
 }
 
 struct point_set *set_new(struct arena *arena, const char *body, size_t index, size_t material,
@@ -118,43 +120,66 @@ gamut_status set_allocate(struct point_set *set, const struct fields *fields, st
   return GAMUT_OK;
 }
 
-/* Room for more slots: padding may need more than the points did at first. */
+static bool longer(struct point_set *set, const char *label, size_t offset, size_t kept,
+                   double **array)
+{
+  double *larger = arena_take(set->arena, label, (set->capacity + SLACK) * sizeof *larger);
+  if (!larger)
+    return false;
+  memcpy(larger + offset, *array, kept * sizeof *larger);
+  arena_give(set->arena, *array - offset);
+  *array = larger + offset;
+  return true;
+}
+
+/* Room for more slots: padding may need more than the points did at first. Array by array, so that
+ * there are never two of all. */
 static gamut_status grow(struct point_set *set, size_t slots, struct trace *trace)
 {
-  struct point_set old = *set;
+  size_t kept = set->open.slots > set->open.points ? set->open.slots : set->open.points;
+  double *id = (double *)(void *)set->id;
   set->capacity = with_padding(slots);
-  gamut_status status = take_all(set, trace);
-  if (status == GAMUT_OK) {
-    size_t kept = old.open.slots > old.open.points ? old.open.slots : old.open.points;
-    memcpy(set->id, old.id, kept * sizeof *set->id);
-    for (size_t k = 0; k < fields_components(set->fields); k++)
-      if (set->array[k])
-        memcpy(set->array[k], old.array[k], kept * sizeof(double));
+  bool good = longer(set, "spare array for sorting", 0, 0, &set->spare) &&
+              longer(set, "point ids", 0, kept, &id);
+  set->id = (int64_t *)(void *)id;
+  for (size_t k = 0; good && k < fields_components(set->fields); k++)
+    if (set->array[k])
+      good = longer(set, fields_of_component(set->fields, k)->name, STAGGER * (k % STAGGERS), kept,
+                    &set->array[k]);
+  return good ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+}
+
+/* Piece by piece an array goes into the spare one and leaves its own memory as the next one's
+ * spare: every piece has room for the largest offset. All threads work on one array at a time. */
+static void permute(struct point_set *set, const uint32_t *source, size_t slots)
+{
+  const size_t components = fields_components(set->fields);
+#pragma omp parallel num_threads(set->threads > 0 ? set->threads : 1) if (slots >= FEW_SLOTS)
+  {
+    double *spare = set->spare;
+    for (size_t k = 0; k < components; k++) {
+      const double *restrict from = set->array[k];
+      if (!from)
+        continue;
+      const size_t offset = STAGGER * (k % STAGGERS);
+      double *restrict to = spare + offset;
+#pragma omp for schedule(static)
+      for (size_t i = 0; i < slots; i++)
+        to[i] = from[source[i] & ~PADDING];
+#pragma omp master
+      set->array[k] = to;
+      spare = (double *)(size_t)from - offset;
+    }
+    int64_t *to = (int64_t *)(void *)spare;
+#pragma omp for schedule(static)
+    for (size_t i = 0; i < slots; i++)
+      to[i] = source[i] & PADDING ? -1 : set->id[source[i]];
+#pragma omp master
+    {
+      set->spare = (double *)(void *)set->id;
+      set->id = to;
+    }
   }
-  give_arrays(&old);
-  return status;
-}
-
-static void permute(struct point_set *set, size_t component, const uint32_t *source, size_t slots)
-{
-  double *restrict to = set->spare + STAGGER * (component % STAGGERS);
-  const double *restrict from = set->array[component];
-  for (size_t i = 0; i < slots; i++)
-    to[i] = from[source[i] & ~PADDING];
-  /* The array and the spare change places: every piece has room for the largest offset. */
-  double *was = set->array[component];
-  set->array[component] = to;
-  set->spare = was - STAGGER * (component % STAGGERS);
-}
-
-/* The ids go through the same spare piece, which is as long and as wide. */
-static void permute_ids(struct point_set *set, const uint32_t *source, size_t slots)
-{
-  int64_t *to = (int64_t *)(void *)set->spare;
-  for (size_t i = 0; i < slots; i++)
-    to[i] = source[i] & PADDING ? -1 : set->id[source[i]];
-  set->spare = (double *)(void *)set->id;
-  set->id = to;
 }
 
 static gamut_status keep_blocks(struct point_set *set, const size_t *first, size_t blocks,
@@ -179,10 +204,7 @@ gamut_status set_arrange(struct point_set *set, const uint32_t *source, size_t s
   gamut_status status = GAMUT_OK;
   if (slots > set->capacity)
     TRY(grow(set, slots, trace));
-  for (size_t k = 0; k < fields_components(set->fields); k++)
-    if (set->array[k])
-      permute(set, k, source, slots);
-  permute_ids(set, source, slots);
+  permute(set, source, slots);
   const struct field *mass = fields_find(set->fields, "mass");
   if (mass && mass->stored)
     for (size_t i = 0; i < slots; i++)

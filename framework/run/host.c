@@ -154,6 +154,7 @@ static gamut_status host_arrange(struct gamut_run *run, struct gamut_set *set,
                                  const uint32_t *source, size_t slots, const size_t *first,
                                  size_t blocks)
 {
+  set_inside(set)->threads = run->threads;
   return set_arrange(set_inside(set), source, slots, first, blocks, run->trace);
 }
 
