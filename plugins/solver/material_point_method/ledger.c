@@ -4,6 +4,9 @@
  * remainder of the stress update is what internal forces took from the grid and the material's
  * energy does not show.
  *
+ * Velocities stand half a step before stresses, so the energy of one time is the kinetic energy with
+ * the internal energy of half a step ago: a line takes back half of what the last step added.
+ *
  * Momentum is stored as what goes forward and what goes backward, so that the balance of a body at
  * rest as a whole has a scale to be measured by. */
 #include <string.h>
@@ -71,6 +74,7 @@ gamut_status ledger_open(struct model *m)
   } lines[] = {{"mass", "points", "kg", GAMUT_STORED, &l->mass},
                {"energy", "kinetic", "J", GAMUT_STORED, &l->kinetic},
                {"energy", "internal", "J", GAMUT_STORED, &l->internal},
+               {"energy", "internal, half a step back", "J", GAMUT_STORED, &l->stagger},
                {"energy", "external forces", "J", GAMUT_SUPPLIED, &l->external_work},
                {"energy", "planes", "J", GAMUT_SUPPLIED, &l->plane_work},
                {"energy", "impact and friction at planes", "J", GAMUT_LOST, &l->impact_loss},
@@ -166,8 +170,10 @@ void ledger_keep(struct model *m, double step)
   *l->impact_loss += m->planes.loss;
   *l->scatter_loss += was[SUM_KINETIC] - m->nodes.kinetic_before;
   *l->gather_loss += m->nodes.kinetic_after - (l->now[SUM_KINETIC] + gone[GONE_KINETIC]);
-  *l->remainder += external - m->nodes.work -
-                   (l->now[SUM_INTERNAL] + gone[GONE_INTERNAL] - was[SUM_INTERNAL]);
+  const double gain = l->now[SUM_INTERNAL] + gone[GONE_INTERNAL] - was[SUM_INTERNAL];
+  const double stagger = *l->stagger;
+  *l->stagger = -0.5 * gain;
+  *l->remainder += external - m->nodes.work - gain - (*l->stagger - stagger);
   for (unsigned k = 0; k < 3; k++) {
     if (l->forward[k] != NULL) {
       *l->external_impulse[k] += step * was[SUM_FORCE + k];

@@ -44,7 +44,7 @@ struct node_sums {
   double kinetic_before, kinetic_after;
   double work; /* of all forces */
   double spin_after[3];
-  double lost[3]; /* momentum at nodes that take no part */
+  double lost[3]; /* momentum that pic does not give to the points, at nearly empty nodes */
   double speed;   /* fastest component */
 };
 
@@ -60,7 +60,7 @@ struct body {
 /* Lines of the ledger and the running totals behind them. */
 struct ledger {
   double now[POINT_SUMS]; /* sums over all points at the end of the last step */
-  double *mass, *kinetic, *internal;
+  double *mass, *kinetic, *internal, *stagger;
   double *forward[3], *backward[3], *round[3], *back_round[3];
   double *external_work, *plane_work, *impact_loss, *scatter_loss, *gather_loss, *remainder;
   double *external_impulse[3], *plane_impulse[3], *empty_nodes[3];
@@ -81,6 +81,7 @@ struct model {
   enum shape shape;
   enum order order;
   enum rule rule;
+  bool limited;    /* one pass with linear functions: forces on nearly empty nodes are kept down */
   int filter;      /* m of XPIC(m) */
   bool contiguous; /* gimp: domains follow the stretch */
   double cell, courant, fixed_step;
@@ -137,6 +138,11 @@ gamut_status step_register(struct model *);
 gamut_status step_first_scatter(struct model *);
 
 /* step/update.c */
+/* The mass that a node's acceleration is taken with where it enters strain and places. A nearly
+ * empty node may get a force out of all proportion to its mass: its share in the points' velocity
+ * stays what it is, but it must not tear them. With linear functions and one pass that goes for
+ * nodes with less than twice the mean mass of the points that they see (`square`: sum N m^2). */
+double step_slow_mass(const struct model *, double mass, double square);
 gamut_status step_collect(struct model *);
 gamut_status step_update_grid(void *self, const struct gamut_chunk *);
 gamut_status step_update_again(void *self, const struct gamut_chunk *);

@@ -113,6 +113,7 @@ static gamut_status read_scheme(struct model *m, const struct gamut_values *valu
   m->shape = (enum shape)chosen(values, "shape", shapes);
   const int order = chosen(values, "order", orders);
   m->order = order < 3 ? (enum order)order : m->shape == SHAPE_LINEAR ? ORDER_MUSL : ORDER_USL;
+  m->limited = m->shape == SHAPE_LINEAR && m->order == ORDER_USL;
   m->contiguous =
       m->shape == SHAPE_GIMP && strcmp(gamut_text(values, "gimp.domain"), "contiguous") == 0;
   if (m->shape != SHAPE_GIMP && gamut_given(values, "gimp"))

@@ -15,14 +15,16 @@
 #include <gamut/run.h>
 
 enum {
-  LINE = 8,       /* doubles a node: mass, momentum x y z, force x y z, mark */
+  LINE = 8,       /* doubles a node: mass, momentum x y z, force x y z, squared mass */
   NEIGHBOURS = 27 /* at most */
 };
-/* A line after the sums ... */
-enum { LINE_MASS = 0, LINE_MOMENTUM = 1, LINE_FORCE = 4, LINE_MARK = 7 };
-/* ... and after the update. LINE_CHANGE is the step's change of velocity; in the second pass of
- * MUSL the first new velocity moves there, and LINE_VELOCITY is the re-projected one. */
-enum { LINE_VELOCITY = 0, LINE_CHANGE = 3, LINE_SHARE = 6 };
+/* A line after the sums ... LINE_SQUARE is the sum of N m^2 of the points where the model asks for it,
+ * else 0; planes make it negative at nodes that they act on. */
+enum { LINE_MASS = 0, LINE_MOMENTUM = 1, LINE_FORCE = 4, LINE_SQUARE = 7 };
+/* ... and after the update. LINE_CHANGE is the step's change of velocity as the points' velocity
+ * gets it; the part LINE_SLOW of it is in LINE_VELOCITY. In the second pass of MUSL the first new
+ * velocity moves there, and LINE_VELOCITY is the re-projected one. */
+enum { LINE_VELOCITY = 0, LINE_CHANGE = 3, LINE_SHARE = 6, LINE_SLOW = 7 };
 
 struct node_block {
   int32_t at[3]; /* its place, in blocks */
@@ -68,7 +70,7 @@ struct grid {
   double cell, inverse_cell;
   double origin[3]; /* a node */
   double shift;     /* from the lowest node that a point touches to its cell, in cells */
-  double empty;     /* a node with no more mass than this takes no part */
+  double empty;     /* a node with no more mass than this is nearly empty */
 
   size_t blocks, capacity;
   struct node_block *block;

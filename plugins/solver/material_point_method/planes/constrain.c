@@ -71,10 +71,10 @@ static bool pressed(const struct plane *p, double *const line[3], double step)
 static bool in_contact(const struct model *m, const struct plane *p, const struct column *c,
                        double *const line[3], double step)
 {
+  if (!p->given.unilateral)
+    return line[ON][LINE_MASS] > 0.0;
   if (!(line[ON][LINE_MASS] > m->grid.empty))
     return false;
-  if (!p->given.unilateral)
-    return true;
   return c->arrives ? presses(p, line[ON], step) : pressed(p, line, step);
 }
 
@@ -88,7 +88,9 @@ void planes_before_update(struct model *m)
     t->mass = line[LINE_MASS];
     memcpy(t->momentum, line + LINE_MOMENTUM, sizeof t->momentum);
     memcpy(t->force, line + LINE_FORCE, sizeof t->force);
-    line[LINE_MARK] = 1.0;
+    memset(t->rest, 0, sizeof t->rest);
+    t->slow = t->mass > 0.0 ? step_slow_mass(m, t->mass, line[LINE_SQUARE]) : 0.0;
+    line[LINE_SQUARE] = -fabs(line[LINE_SQUARE]);
   }
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
@@ -239,6 +241,38 @@ static void column_friction(struct model *m, const struct plane *p, const struct
     line[LINE_CHANGE + k] += line[LINE_VELOCITY + k] - before[k];
 }
 
+/* What the limit of a node's acceleration keeps from strain and places the points' velocity gets
+ * none the less, along what planes leave free. */
+static void give_rest(struct model *m, double step)
+{
+  struct planes *ps = &m->planes;
+  for (size_t i = 0; i < ps->touches; i++) {
+    struct touched *t = &ps->touched[i];
+    for (int k = 0; k < 3; k++)
+      t->rest[k] = t->mass > 0.0 ? step * t->force[k] * (1.0 / t->mass - 1.0 / t->slow) : 0.0;
+  }
+  for (size_t i = 0; i < ps->count; i++) {
+    const struct plane *p = ps->plane[i];
+    for (size_t n = 0; n < p->nodes; n++) {
+      double *rest = ps->touched[p->node[n].touched].rest, along = 0.0;
+      if (!p->node[n].contact)
+        continue;
+      for (int k = 0; k < 3; k++)
+        along += rest[k] * p->given.normal[k];
+      for (int k = 0; k < 3; k++) {
+        const double normal = along * p->given.normal[k];
+        if (p->given.tangential_rule == GAMUT_PLANE_PRESCRIBED)
+          rest[k] = normal;
+        if (p->given.normal_rule != GAMUT_PLANE_FREE)
+          rest[k] -= normal;
+      }
+    }
+  }
+  for (size_t i = 0; i < ps->touches; i++)
+    for (int k = 0; k < 3; k++)
+      touched_line(m, (int32_t)i)[LINE_CHANGE + k] += ps->touched[i].rest[k];
+}
+
 gamut_status planes_after_update(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
@@ -251,7 +285,8 @@ gamut_status planes_after_update(struct model *m, double step)
       double *line = touched_line(m, node->touched);
       const bool arrives =
           (p->given.unilateral || p->moves) && !p->images && places_find(p->held, node->node) < 0;
-      node->contact = line[LINE_SHARE] > m->grid.empty && hold(p, line, t->force, step, arrives);
+      node->contact = line[LINE_SHARE] > (p->given.unilateral ? m->grid.empty : 0.0) &&
+                      hold(p, line, t->force, step, arrives);
       if (!node->contact)
         continue;
       if (plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell)
@@ -274,6 +309,8 @@ gamut_status planes_after_update(struct model *m, double step)
       contact_add(m, p, &ps->touched[p->column[c].touched[ON]]);
     }
   }
+  if (m->limited)
+    give_rest(m, step);
   return planes_book(m, step);
 }
 

@@ -42,6 +42,8 @@ struct touched {
   int32_t index; /* in the block */
   double x[3];
   double mass, momentum[3], force[3];
+  double slow;    /* step_slow_mass */
+  double rest[3]; /* change of velocity that only the points' velocity gets */
   int8_t owner[3]; /* plane that its impulse is booked to, by component */
   int8_t first;    /* the first plane that touches it */
 };

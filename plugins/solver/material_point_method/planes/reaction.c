@@ -59,17 +59,19 @@ static void book_nodes(struct model *m, double step)
     if (t->mass == 0.0)
       continue;
     for (int k = 0; k < 3; k++) {
-      const double v = line[LINE_VELOCITY + k], change = line[LINE_CHANGE + k], old = v - change;
-      const double mean = v - 0.5 * change, own = t->mass * change - step * t->force[k];
+      const double v = line[LINE_VELOCITY + k], whole = line[LINE_CHANGE + k];
+      const double change = whole - t->rest[k], old = v - change, mean = v - 0.5 * change;
+      const double own = t->mass * whole - step * t->force[k];
       struct plane *p = ps->plane[t->owner[k]];
       m->nodes.kinetic_before += 0.5 * t->mass * old * old;
       m->nodes.kinetic_after += 0.5 * t->mass * v * v;
-      m->nodes.work += step * t->force[k] * mean;
+      m->nodes.work += (step * t->force[k] - t->mass * t->rest[k]) * mean;
+      m->nodes.lost[k] += m->rule == RULE_XPIC ? 0.0 : m->pic * t->mass * t->rest[k];
       ps->work += own * p->given.velocity[k];
       ps->loss += own * (p->given.velocity[k] - mean);
       p->reaction->work += own * p->given.velocity[k];
       impulse[k] = own + m->pic * (t->mass * old - t->momentum[k]);
-      after[k] = t->momentum[k] + t->mass * change;
+      after[k] = t->momentum[k] + t->mass * whole;
       p->impulse[k] += impulse[k];
       ps->impulse[k] += impulse[k];
       m->nodes.speed = fmax(m->nodes.speed, fabs(v));

@@ -33,7 +33,23 @@ static void swap_lines(struct model *m)
   }
 }
 
-/* The nodes' velocity before the step, as momentum. */
+/* The touched node that node `index` of a block is, or null. */
+static const struct touched *touched_of(const struct model *m, const struct node_block *b,
+                                        size_t index)
+{
+  const struct planes *ps = &m->planes;
+  const int32_t touched =
+      ps->count > 0 && b->planes >= 0 ? ps->of_node[(size_t)b->planes + index] : -1;
+  return touched < 0 ? NULL : &ps->touched[touched];
+}
+
+/* Component k of a node's velocity before the step; `line` is the node's after the update. */
+static double velocity_before(const double *line, const struct touched *t, size_t k)
+{
+  const double change = line[LINE_CHANGE + k];
+  return line[LINE_VELOCITY + k] - (t == NULL ? change * line[LINE_SLOW] : change - t->rest[k]);
+}
+
 static void begin(struct model *m)
 {
   const size_t nodes = m->grid.block_nodes;
@@ -42,12 +58,12 @@ static void begin(struct model *m)
     block->filter = m->filter_line + b * nodes * LINE;
     for (size_t i = 0; i < nodes && block->line != NULL; i++) {
       const double *from = block->line + i * LINE;
+      const struct touched *t = touched_of(m, block, i);
       double *to = block->filter + i * LINE;
       memset(to, 0, LINE * sizeof *to);
       to[LINE_SHARE] = from[LINE_SHARE];
-      for (int k = 0; k < 3; k++)
-        to[LINE_VELOCITY + k] =
-            from[LINE_SHARE] * (from[LINE_VELOCITY + k] - from[LINE_CHANGE + k]);
+      for (size_t k = 0; k < 3; k++)
+        to[LINE_VELOCITY + k] = to[LINE_SHARE] * velocity_before(from, t, k);
     }
   }
 }
@@ -115,18 +131,15 @@ static void add_share(struct model *m, double share)
  * the nodes take over what was filtered. */
 static void finish(struct model *m)
 {
-  struct planes *ps = &m->planes;
   for (size_t b = 0; b < m->grid.blocks; b++) {
     const struct node_block *block = &m->grid.block[b];
     for (size_t i = 0; i < m->grid.block_nodes && block->line != NULL; i++) {
       double *line = block->line + i * LINE;
       const double *u = block->filter + i * LINE;
-      const int32_t touched =
-          ps->count > 0 && block->planes >= 0 ? ps->of_node[(size_t)block->planes + i] : -1;
-      const double mass = touched < 0 ? line[LINE_SHARE] : ps->touched[touched].mass;
-      for (int k = 0; k < 3; k++) {
-        ps->impulse[k] +=
-            mass * (u[LINE_CHANGE + k] - line[LINE_VELOCITY + k] + line[LINE_CHANGE + k]);
+      const struct touched *t = touched_of(m, block, i);
+      const double mass = t == NULL ? line[LINE_SHARE] : t->mass;
+      for (size_t k = 0; k < 3; k++) {
+        m->planes.impulse[k] += mass * (u[LINE_CHANGE + k] - velocity_before(line, t, k));
         line[LINE_CHANGE + k] += u[LINE_CHANGE + k];
       }
     }

@@ -196,6 +196,7 @@ gamut_status scatter_view(struct model *m, struct work *w, const struct gamut_se
   view->real = real_points(set, slot, view->count);
   view->density = m->body[set->index].density;
   view->axisymmetric = m->geometry == GEOMETRY_AXISYMMETRIC;
+  view->squares = m->limited;
   struct locate l = locate_in(m, serial, view->position, view->count);
   for (unsigned k = 0; k < m->dimension; k++)
     l.length[k] = view->length[k];

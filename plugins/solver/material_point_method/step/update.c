@@ -18,54 +18,55 @@ gamut_status step_collect(struct model *m)
   return grid_forget_boxes(g);
 }
 
-/* A node that takes no part: what it held is lost, and said to be. */
-static void lose(const struct model *m, const double *line, const double x[3], double step,
-                 struct node_sums *s)
+double step_slow_mass(const struct model *m, double mass, double square)
 {
+  const double least = m->limited ? 2.0 * fabs(square) / mass : m->grid.empty;
+  return mass > least ? mass : least;
+}
+
+static void add_node(const double *line, const double x[3], const double v[3],
+                     const double change[3], const double spin[3], struct node_sums *s)
+{
+  const double mass = line[LINE_MASS];
+  double before = 0.0, after = 0.0, work = 0.0;
   for (int k = 0; k < 3; k++) {
+    const double old = v[k] - change[k];
     const int a = (k + 1) % 3, b = (k + 2) % 3;
-    s->lost[k] += step * line[LINE_FORCE + k] + m->pic * line[LINE_MOMENTUM + k];
-    s->spin_after[k] += x[a] * (line[LINE_MOMENTUM + b] + step * line[LINE_FORCE + b]) -
-                        x[b] * (line[LINE_MOMENTUM + a] + step * line[LINE_FORCE + a]);
+    before += old * old;
+    after += v[k] * v[k];
+    work += change[k] * (v[k] - 0.5 * change[k]);
+    s->speed = fabs(v[k]) > s->speed ? fabs(v[k]) : s->speed;
+    s->spin_after[k] += x[a] * spin[b] - x[b] * spin[a];
   }
+  s->kinetic_before += 0.5 * mass * before;
+  s->kinetic_after += 0.5 * mass * after;
+  s->work += mass * work;
 }
 
 static void update_node(const struct model *m, double *line, const double x[3], double step,
                         struct node_sums *s)
 {
-  const double mass = line[LINE_MASS], mark = line[LINE_MARK];
-  double v[3] = {0.0, 0.0, 0.0}, change[3] = {0.0, 0.0, 0.0};
-  if (mass > m->grid.empty) {
-    const double over = 1.0 / mass;
-    for (int k = 0; k < 3; k++) {
-      change[k] = step * line[LINE_FORCE + k] * over;
-      v[k] = line[LINE_MOMENTUM + k] * over + change[k];
-    }
-    if (mark == 0.0) {
-      double before = 0.0, after = 0.0, work = 0.0;
-      for (int k = 0; k < 3; k++) {
-        const double old = v[k] - change[k];
-        before += old * old;
-        after += v[k] * v[k];
-        work += line[LINE_FORCE + k] * (v[k] - 0.5 * change[k]);
-        s->speed = fabs(v[k]) > s->speed ? fabs(v[k]) : s->speed;
-      }
-      s->kinetic_before += 0.5 * mass * before;
-      s->kinetic_after += 0.5 * mass * after;
-      s->work += step * work;
-      s->spin_after[0] += mass * (x[1] * v[2] - x[2] * v[1]);
-      s->spin_after[1] += mass * (x[2] * v[0] - x[0] * v[2]);
-      s->spin_after[2] += mass * (x[0] * v[1] - x[1] * v[0]);
-    }
-  } else if (mark == 0.0 && mass > 0.0) {
-    lose(m, line, x, step, s);
+  const double mass = line[LINE_MASS], square = line[LINE_SQUARE];
+  const bool touched = signbit(square);
+  const double over = 1.0 / mass, slow = 1.0 / step_slow_mass(m, mass, square);
+  double v[3], change[3], whole[3], spin[3];
+  for (int k = 0; k < 3; k++) {
+    const double push = step * line[LINE_FORCE + k];
+    change[k] = push * slow;
+    whole[k] = push * over;
+    spin[k] = line[LINE_MOMENTUM + k] + push;
+    v[k] = line[LINE_MOMENTUM + k] * over + change[k];
   }
+  if (!touched)
+    add_node(line, x, v, change, spin, s);
   for (int k = 0; k < 3; k++) {
     line[LINE_VELOCITY + k] = v[k];
-    line[LINE_CHANGE + k] = change[k];
+    line[LINE_CHANGE + k] = touched ? change[k] : whole[k];
+    if (!touched && m->rule != RULE_XPIC)
+      s->lost[k] += m->pic * mass * (whole[k] - change[k]);
   }
   line[LINE_SHARE] = mass;
-  line[LINE_MARK] = 0.0;
+  line[LINE_SLOW] = mass * slow;
 }
 
 static void update_block(struct model *m, size_t b, double step)
@@ -84,7 +85,7 @@ static void update_block(struct model *m, size_t b, double step)
       x[1] = corner[1] + m->cell * j;
       for (int i = 0; i < nx; i++, line += LINE) {
         x[0] = corner[0] + m->cell * i;
-        if (line[LINE_MASS] > 0.0 || line[LINE_MARK] != 0.0)
+        if (line[LINE_MASS] > 0.0)
           update_node(m, line, x, step, &sums);
         else
           memset(line, 0, LINE * sizeof *line);
@@ -154,7 +155,7 @@ static void divide_block(struct model *m, size_t b)
   double *lines = m->grid.block[b].line;
   for (size_t i = 0; i < m->grid.block_nodes && lines != NULL; i++) {
     double *line = lines + i * LINE;
-    const double over = line[LINE_SHARE] > m->grid.empty ? 1.0 / line[LINE_SHARE] : 0.0;
+    const double over = line[LINE_SHARE] > 0.0 ? 1.0 / line[LINE_SHARE] : 0.0;
     for (int k = 0; k < 3; k++)
       line[LINE_VELOCITY + k] *= over;
   }

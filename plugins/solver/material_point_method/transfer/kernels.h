@@ -16,7 +16,8 @@
 
 static bool NAMED(locate)(struct work *w, const struct locate *in, bool grow)
 {
-  const double scale = in->inverse_cell, end = SIDE + 2;
+  /* a point on a node leaves a trace at the node beyond, whose linear slope it sees */
+  const double scale = in->inverse_cell, end = SIDE + 2, least = NODES == 2 ? 1e-12 : 0.0;
   int lower[3] = {SIDE + 2, SIDE + 2, SIDE + 2}, upper[3] = {-1, -1, -1}, bad = 0;
   int32_t *restrict node = w->node;
   for (size_t i = 0; i < in->count; i++)
@@ -33,7 +34,8 @@ static bool NAMED(locate)(struct work *w, const struct locate *in, bool grow)
       const int inside = at >= 0.0 && at < end;
       const int cell = (int)(inside ? at : 0.0);
       bad |= !inside;
-      place[i] = at - cell;
+      const double in_cell = at - cell;
+      place[i] = in_cell > least ? in_cell : least;
       node[i] += stride * cell;
       low = cell < low ? cell : low;
       high = cell > high ? cell : high;
@@ -220,6 +222,7 @@ INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
   }
   for (int l = 0; l < GAMUT_LANES; l++) {
     out[0][l][LINE_MASS] = mass[l];
+    out[0][l][LINE_SQUARE] = p->squares ? mass[l] * mass[l] : 0.0;
     for (int c = 0; c < DIMENSION; c++)
       out[0][l][LINE_MOMENTUM + c] = momentum[c][l];
   }

@@ -7,8 +7,9 @@
 #include "transfer/transfer.h"
 
 #if WIDTH == 8
-/* Sums of a cell, by node: mass, momentum, force component by slope component, external force. */
-enum { SUM_M, SUM_P, SUM_F = SUM_P + 3, SUM_E = SUM_F + 9 };
+/* Sums of a cell, by node: mass, momentum, force component by slope component, external force,
+ * squared mass. */
+enum { SUM_M, SUM_P, SUM_F = SUM_P + 3, SUM_E = SUM_F + 9, SUM_S = SUM_E + 3 };
 
 static const vector sign[3] = {
     {-1, 1, -1, 1, -1, 1, -1, 1}, {-1, -1, 1, 1, -1, -1, 1, 1}, {-1, -1, -1, -1, 1, 1, 1, 1}};
@@ -45,6 +46,7 @@ INLINE void add_cell(double *tile, const vector sum[PENDING])
   for (int c = 0; c < 3; c++)
     r[4 + c] = sum[SUM_F + 3 * c] * sign[0] + sum[SUM_F + 3 * c + 1] * sign[1] +
                sum[SUM_F + 3 * c + 2] * sign[2] + sum[SUM_E + c];
+  r[LINE_SQUARE] = sum[SUM_S];
   transpose(r);
   for (int n = 0; n < 8; n++) {
     double *line = tile + LINE * ((n & 1) + TILE_LINEAR * ((n >> 1 & 1) + TILE_LINEAR * (n >> 2)));
@@ -52,7 +54,10 @@ INLINE void add_cell(double *tile, const vector sum[PENDING])
   }
 }
 
-INLINE void add_point(const struct work *w, const double *mass, size_t i, bool force, bool outer,
+/* Which sums a scatter makes beside mass and momentum. */
+enum { FORCE = 1, OUTER = 2, SQUARES = 4 };
+
+INLINE void add_point(const struct work *w, const double *mass, size_t i, int kinds,
                       vector sum[PENDING])
 {
   static const int component[3][3] = {{6, 9, 11}, {9, 7, 10}, {11, 10, 8}};
@@ -62,14 +67,16 @@ INLINE void add_point(const struct work *w, const double *mass, size_t i, bool f
   sum[SUM_M] += weight * mass[i];
   for (int c = 0; c < 3; c++)
     sum[SUM_P + c] += weight * w->prepared[c][i];
-  for (int c = 0; force && c < 3; c++)
+  for (int c = 0; (kinds & FORCE) && c < 3; c++)
     for (int k = 0; k < 3; k++)
       sum[SUM_F + 3 * c + k] += slope[k] * w->prepared[component[c][k]][i];
-  for (int c = 0; outer && c < 3; c++)
+  for (int c = 0; (kinds & OUTER) && c < 3; c++)
     sum[SUM_E + c] += weight * w->prepared[3 + c][i];
+  if (kinds & SQUARES)
+    sum[SUM_S] += weight * (mass[i] * mass[i]);
 }
 
-INLINE void linear_scatter(struct work *w, const struct point_view *p, bool force, bool outer)
+INLINE void linear_scatter(struct work *w, const struct point_view *p, int kinds)
 {
   const size_t real = p->real;
   if (real == 0)
@@ -88,7 +95,7 @@ INLINE void linear_scatter(struct work *w, const struct point_view *p, bool forc
     }
     end = run_end(w->node, i, real);
     for (size_t j = i; j < end; j++)
-      add_point(w, p->mass, j, force, outer, sum);
+      add_point(w, p->mass, j, kinds, sum);
   }
   for (int k = 0; k < PENDING; k++)
     vector_write(w->pending[k], sum[k]);
@@ -138,17 +145,22 @@ static void scatter_linear(struct work *w, const struct point_view *p, double ce
 {
   prepare_momentum(w, p);
   prepare_force(w, p, cell);
-  if (p->force[0] != NULL)
-    linear_scatter(w, p, true, true);
+  const int kinds = FORCE | (p->force[0] != NULL ? OUTER : 0) | (p->squares ? SQUARES : 0);
+  if (kinds == FORCE)
+    linear_scatter(w, p, FORCE);
+  else if (kinds == (FORCE | SQUARES))
+    linear_scatter(w, p, FORCE | SQUARES);
+  else if (kinds == (FORCE | OUTER))
+    linear_scatter(w, p, FORCE | OUTER);
   else
-    linear_scatter(w, p, true, false);
+    linear_scatter(w, p, FORCE | OUTER | SQUARES);
 }
 
 static void scatter_momentum_linear(struct work *w, const struct point_view *p, double cell)
 {
   (void)cell;
   prepare_momentum(w, p);
-  linear_scatter(w, p, false, false);
+  linear_scatter(w, p, 0);
 }
 #endif
 

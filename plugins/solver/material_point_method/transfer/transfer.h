@@ -15,7 +15,7 @@ enum { STRIDE = GAMUT_CHUNK_MAX + 24 }; /* no multiple of a page: arrays must no
 
 enum {
   PREPARED = 12, /* momentum, external force, minus volume times stress over the cell */
-  PENDING = 16
+  PENDING = 17
 };
 
 /* What one thread works on a block with. */
@@ -46,6 +46,7 @@ struct point_view {
   const double *force[3];  /* external */
   double density;          /* reference */
   bool axisymmetric;
+  bool squares; /* sums of squared mass are wanted */
 };
 
 struct locate {
