@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "command/scene_arguments.h"
+#include "run/run.h"
 #include "study/study.h"
 
 /* The levels of a study are scenes of their own. */
@@ -17,6 +18,18 @@ static gamut_status check_study(struct command *command, struct scene *scene)
   return status;
 }
 
+/* What only plugins can tell: they are made and the run is planned, but not started. */
+static gamut_status check_plan(struct command *command, struct scene *scene)
+{
+  struct gamut_run *run = NULL;
+  const struct run_options options = {.threads = 1};
+  if (scene->solver.descriptor == NULL)
+    return GAMUT_OK;
+  const gamut_status status = run_new(scene, command->registry, &options, command->trace, &run);
+  run_free(run);
+  return status;
+}
+
 gamut_status command_check(struct command *command)
 {
   gamut_status status = GAMUT_OK;
@@ -27,6 +40,7 @@ gamut_status command_check(struct command *command)
   TRY(options_read(command, option, 1, &file, 1, 1, NULL));
   TRY(scene_from_arguments(command, file, &set, &scene));
   TRY(check_study(command, scene));
+  TRY(check_plan(command, scene));
   printf("%s: fine (solver %s, %zu material%s, %zu bod%s, %zu effect%s, %zu quantit%s)\n", file,
          scene->solver.descriptor ? scene->solver.descriptor->name : "none: a card",
          scene->materials, scene->materials == 1 ? "" : "s", scene->bodies,

@@ -157,7 +157,8 @@ gamut_status step_project(struct model *, bool carry);
 gamut_status step_filter(struct model *);
 
 /* points/sums.c: energy may be null, forces not. */
-void sums_motion(struct work *, const struct point_view *, const double *energy);
+void sums_motion(struct work *, const struct point_view *, unsigned dimension,
+                 const double *energy);
 void sums_forces(struct work *, const struct point_view *);
 
 /* ledger.c */

@@ -134,6 +134,10 @@ static gamut_status read_rule(struct model *m, const struct gamut_values *values
   if (m->rule != RULE_XPIC && gamut_given(values, "transfer.order"))
     return gamut_fail_at(m->run, values, "transfer.order", "model: xpic, or no order",
                          "%s has no order", rules[m->rule]);
+  if (m->rule == RULE_APIC && m->shape == SHAPE_LINEAR)
+    return gamut_fail_at(m->run, values, "transfer.model", "a shape of gimp, quadratic or cubic",
+                         "apic and linear shapes make energy at the nodes around a body, which see "
+                         "its velocity's slope but next to nothing of its mass");
   return GAMUT_OK;
 }
 

@@ -234,8 +234,7 @@ gamut_status removal_take(struct model *m, const struct gamut_chunk *chunk)
   if (mark == NULL && lost == nobody && r->outside == NULL)
     return GAMUT_OK;
   const struct state s = state_of(m, chunk);
-  const struct locate l =
-      locate_in(m, chunk->serial, (const double *const *)s.x, chunk->count);
+  const struct locate l = locate_in(m, chunk->serial, (const double *const *)s.x, chunk->count);
   double *gone = r->gone + chunk->serial * r->takers * GONE_SUMS;
   for (size_t i = 0; i < chunk->count; i++) {
     if (chunk->set->id[chunk->slot + i] < 0)
@@ -262,8 +261,7 @@ void removal_take_moved(struct model *m, const struct gamut_chunk *chunk)
   if (lost == nobody && r->outside == NULL)
     return;
   struct state s = state_of(m, chunk);
-  const struct locate l =
-      locate_in(m, chunk->serial, (const double *const *)s.x, chunk->count);
+  const struct locate l = locate_in(m, chunk->serial, (const double *const *)s.x, chunk->count);
   double *gone = r->gone + chunk->serial * r->takers * GONE_SUMS;
   double *energy = m->host->stored(chunk->set, m->field.energy, 0);
   s.energy = energy != NULL ? energy + chunk->slot : NULL;

@@ -70,6 +70,7 @@ gamut_status removal_keep(struct model *);
 gamut_status removal_check(struct model *);
 
 /* Points that lie outside the tile or the domain: the step is finished, then the run stops. */
+void stray_note(struct model *, const struct gamut_set *, size_t slot, const char *what);
 void stray_outside_tile(struct model *, const struct gamut_set *, size_t slot,
                         const struct locate *, const double *const x[3], const double *const v[3]);
 void stray_outside_domain(struct model *, const struct gamut_set *, size_t slot, size_t count,

@@ -3,30 +3,33 @@
 
 #define ADD(quantity, value) sum[(quantity)*GAMUT_LANES + l] += (value)
 
-/* Moment of momentum: mass (C D - D C^T) off the diagonal; kinetic energy: half the mass times the
- * sum of C_ck^2 D_k, with the second moments D of the weights (Jiang et al. 2015). */
+/* With B the first moments of velocity and D the second ones of the weights: moment of momentum is
+ * mass (B - B^T) off the diagonal, kinetic energy half the mass times the sum of B_ck^2 / D_k. */
 static void add_affine(double *restrict sum, const struct work *w, const struct point_view *p,
-                       size_t i)
+                       unsigned dimension, size_t i)
 {
+  const double mean = w->mean_second;
   for (size_t l = 0; l < GAMUT_LANES; l++) {
     const size_t j = i + l;
     const double mass = p->mass[j];
-    double energy = 0.0;
-    for (size_t c = 0; c < 3; c++)
-      for (size_t k = 0; k < 3; k++)
-        energy += p->affine[3 * c + k][j] * p->affine[3 * c + k][j] * w->second[k][j];
+    double moment[9] = {0.0}, energy = 0.0;
+    for (size_t c = 0; c < dimension; c++)
+      for (size_t k = 0; k < dimension; k++) {
+        moment[3 * c + k] = mean * p->affine[3 * c + k][j];
+        energy += moment[3 * c + k] * moment[3 * c + k] / w->second[k][j];
+      }
     ADD(SUM_KINETIC, 0.5 * mass * energy);
     for (size_t k = 0; k < 3; k++) {
       const size_t a = (k + 1) % 3, b = (k + 2) % 3;
-      const double spin = mass * (p->affine[3 * b + a][j] * w->second[a][j] -
-                                  p->affine[3 * a + b][j] * w->second[b][j]);
+      const double spin = mass * (moment[3 * b + a] - moment[3 * a + b]);
       ADD(SUM_SPIN + k, spin);
       ADD(SUM_ROUND + k, spin > 0.0 ? spin : 0.0);
     }
   }
 }
 
-void sums_motion(struct work *w, const struct point_view *p, const double *energy)
+void sums_motion(struct work *w, const struct point_view *p, unsigned dimension,
+                 const double *energy)
 {
   double *restrict sum = w->point_sum;
   const double over = energy == NULL ? 0.0 : 1.0 / p->density;
@@ -51,8 +54,8 @@ void sums_motion(struct work *w, const struct point_view *p, const double *energ
       ADD(SUM_KINETIC, 0.5 * mass * (u * u + v * v + t * t));
       ADD(SUM_INTERNAL, mass * over * e[j]);
     }
-    if (p->affine[0] != NULL)
-      add_affine(sum, w, p, i);
+    if (p->affine[0] != NULL && i < p->real)
+      add_affine(sum, w, p, dimension, i);
   }
 }
 

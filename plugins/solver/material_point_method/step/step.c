@@ -98,7 +98,7 @@ static gamut_status register_scatter(struct model *m)
   use(&u, "omega_squared", GAMUT_READ);
   use(&u, "removal", GAMUT_READ_IF);
   if (m->shape == SHAPE_GIMP)
-    use(&u, "domain_length", GAMUT_READ);
+    use(&u, "domain_length", m->contiguous ? GAMUT_READ : GAMUT_READ_BEGIN);
   if (m->rule == RULE_APIC)
     use(&u, "affine_velocity", GAMUT_READ);
   const gamut_status status =

@@ -37,8 +37,7 @@ gamut_status find_stray(const struct model *m, const struct gamut_set *set, size
   return gamut_fail(m->run, GAMUT_INTERNAL, "a point left its block, but none is outside");
 }
 
-/* Strays are only noted: every chunk of the step is looked at, and the first of all is named. */
-static void note(struct model *m, const struct gamut_set *set, size_t slot, const char *what)
+void stray_note(struct model *m, const struct gamut_set *set, size_t slot, const char *what)
 {
   struct stray *first = &m->removal.stray;
 #pragma omp critical(material_point_method_stray)
@@ -62,12 +61,12 @@ void stray_outside_tile(struct model *m, const struct gamut_set *set, size_t slo
       const double at = x[k][i] * l->inverse_cell - l->origin[k];
       if (at >= 0.0 && at < m->grid.side + 2)
         continue;
-      note(m, set, slot + i,
-           isfinite(x[k][i]) && isfinite(v[k][i])
-               ? "it went farther than a cell in a step or two: the time step is too "
-                 "long or the run is unstable"
-               : "its position or velocity is not a number: the time step is too long "
-                 "or the material failed");
+      stray_note(m, set, slot + i,
+                 isfinite(x[k][i]) && isfinite(v[k][i])
+                     ? "it went farther than a cell in a step or two: the time step is too "
+                       "long or the run is unstable"
+                     : "its position or velocity is not a number: the time step is too long "
+                       "or the material failed");
       break;
     }
 }
@@ -81,10 +80,11 @@ void stray_outside_domain(struct model *m, const struct gamut_set *set, size_t s
       inside = inside && x[k][i] >= m->lower[k] && x[k][i] <= m->upper[k];
     if (mass[i] == 0.0 || (inside && (m->geometry != GEOMETRY_AXISYMMETRIC || x[0][i] > 0.0)))
       continue;
-    note(m, set, slot + i,
-         inside ? "it crossed the axis: the time step is too long or the cell too large"
-                : "it left the domain; a larger solver.domain lets it go on, outside: remove takes "
-                  "such points out of the run");
+    stray_note(
+        m, set, slot + i,
+        inside ? "it crossed the axis: the time step is too long or the cell too large"
+               : "it left the domain; a larger solver.domain lets it go on, outside: remove takes "
+                 "such points out of the run");
   }
 }
 

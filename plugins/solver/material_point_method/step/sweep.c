@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include <gamut/math.h>
-
 #include "step/step.h"
 
 size_t real_points(const struct gamut_set *set, size_t slot, size_t count)
@@ -125,22 +123,29 @@ static void finish_gradient(const struct model *m, const struct work *w, const d
     hoop[i] = v[i] / radius[i];
 }
 
-/* The edges of the points' domains follow the stretch along their axes, as exp(step L_kk). */
+/* The edges of the points' domains follow the stretch along their axes, as volumes follow that of
+ * all: so that the domains of a bar in one dimension are its volumes. */
 static void stretch_domains(struct model *m, const struct gamut_chunk *chunk)
 {
   const double step = gamut_time_step(m->run), cell = m->cell * (1.0 + 1e-9);
-  int beyond = 0;
+  int beyond = 0, out = 0;
   for (unsigned k = 0; k < m->dimension; k++) {
     const double *restrict from = gamut_begin(chunk, m->field.domain_length, k);
     const double *restrict rate = gamut_end(chunk, m->field.velocity_gradient, 4 * k);
     double *restrict to = gamut_end(chunk, m->field.domain_length, k);
-#pragma omp simd reduction(| : beyond)
+#pragma omp simd reduction(| : beyond, out)
     for (size_t i = 0; i < chunk->count; i++) {
-      to[i] = from[i] * gamut_exp(step * rate[i]);
+      to[i] = from[i] + step * rate[i] * from[i];
       beyond |= to[i] > cell;
+      out |= !(to[i] > 0.0);
     }
   }
   m->work[chunk->thread]->beyond |= beyond;
+  for (size_t i = 0; out != 0 && i < chunk->count; i++)
+    for (unsigned k = 0; k < m->dimension && chunk->set->id[chunk->slot + i] >= 0; k++)
+      if (!(gamut_end(chunk, m->field.domain_length, k)[i] > 0.0))
+        stray_note(m, chunk->set, chunk->slot + i,
+                   "an edge of its domain was turned round: the time step is too long");
 }
 
 gamut_status gather_points(void *self, const struct gamut_chunk *chunk)
@@ -205,7 +210,7 @@ gamut_status scatter_view(struct model *m, struct work *w, const struct gamut_se
     return GAMUT_OK;
   }
   m->transfer.scatter(w, view, m->cell);
-  sums_motion(w, view, energy);
+  sums_motion(w, view, m->dimension, energy);
   if (view->force[0] != NULL)
     sums_forces(w, view);
   if (m->bounded || m->geometry == GEOMETRY_AXISYMMETRIC)

@@ -118,8 +118,8 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
     return GAMUT_INTERNAL;
   m->collected = false;
   planes_before_update(m);
-#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads)                              \
-    if (m->grid.blocks >= FEW_BLOCKS)
+#pragma omp parallel for schedule(dynamic, 8)                                                      \
+    num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     update_block(m, b, step);
   memset(&m->nodes, 0, sizeof m->nodes);
@@ -164,8 +164,8 @@ static void divide_block(struct model *m, size_t b)
 void step_settle(struct model *m)
 {
   planes_before_second(m);
-#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads)                              \
-    if (m->grid.blocks >= FEW_BLOCKS)
+#pragma omp parallel for schedule(dynamic, 8)                                                      \
+    num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     divide_block(m, b);
   planes_after_second(m);
@@ -175,8 +175,8 @@ gamut_status step_project(struct model *m, bool carry)
 {
   if (grid_open_reached(&m->grid) != GAMUT_OK)
     return GAMUT_INTERNAL;
-#pragma omp parallel for schedule(dynamic, 8) num_threads(m->threads)                              \
-    if (m->grid.blocks >= FEW_BLOCKS)
+#pragma omp parallel for schedule(dynamic, 8)                                                      \
+    num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     project_block(m, b, carry);
   if (grid_forget_boxes(&m->grid) != GAMUT_OK)

@@ -13,6 +13,8 @@
 #define NODES_Z (DIMENSION > 2 ? NODES : 1)
 #define SIDE (DIMENSION == 1 ? 64 : DIMENSION == 2 ? 8 : 4)
 #define TILE (SIDE + 1 + NODES)
+/* Of quadratic and cubic splines it is the same everywhere. */
+#define MEAN_SECOND(cell) ((cell) * (cell) / (NODES == 4 ? 3.0 : 4.0))
 
 static bool NAMED(locate)(struct work *w, const struct locate *in, bool grow)
 {
@@ -71,8 +73,7 @@ INLINE void NAMED(weights)(const struct work *w, size_t i, double scale,
     JOIN(shape, SHAPE)(w->place[k] + i, w->reach[k] + i, scale, weight[k], slope[k]);
 }
 
-/* First moments of the weights about the point, and their second moment: sum of w (x_node - x)^2.
- * Jiang et al. (2015), Eqs. 11 to 14. */
+/* First moments of the weights about the point, and their second moment: sum of w (x_node - x)^2. */
 INLINE void NAMED(moments)(const struct work *w, size_t i, double cell,
                            double weight[DIMENSION][NODES][GAMUT_LANES],
                            double moment[DIMENSION][NODES][GAMUT_LANES],
@@ -179,30 +180,30 @@ static void NAMED(gather_gradient)(struct work *w, size_t count, double inverse_
   }
 }
 
-/* The affine field that fits the nodes' velocities best around each point: their first moments over
- * the second moment. With linear functions that is the gradient, and stays so at a node, where both
- * moments vanish. */
+/* First moments of the nodes' velocity about each point, over the second moment that the weights
+ * have on the mean. Where a point scatters, the second moment there turns them into a slope: so it
+ * gives back just the moment of momentum that it was given. Jiang et al. (2015), Eqs. 9 and 15. */
 static void NAMED(gather_affine)(struct work *w, size_t count, double cell, double *const affine[9])
 {
+  const double over = 1.0 / MEAN_SECOND(cell);
   for (size_t i = 0; i < count; i += GAMUT_LANES) {
     double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double moment[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double second[DIMENSION][GAMUT_LANES];
     double out[DIMENSION][GAMUT_LANES][LINE] __attribute__((aligned(64)));
-    NAMED(weights)(w, i, 1.0 / cell, weight, slope);
+    NAMED(weights)(w, i, 1.0, weight, slope);
     NAMED(moments)(w, i, cell, weight, moment, second);
     for (int l = 0; l < GAMUT_LANES; l++) {
       struct line sum[4];
-      NAMED(interpolate)(w->tile + LINE * w->node[i + (size_t)l], weight,
-                         NODES == 2 ? slope : moment, l, true, sum);
+      NAMED(interpolate)(w->tile + LINE * w->node[i + (size_t)l], weight, moment, l, true, sum);
       for (int k = 0; k < DIMENSION; k++)
         line_write(&sum[k + 1], out[k][l]);
     }
     for (int c = 0; c < DIMENSION; c++)
       for (int k = 0; k < DIMENSION; k++)
         for (size_t l = 0; l < GAMUT_LANES; l++)
-          affine[3 * c + k][i + l] = NODES == 2 ? out[k][l][c] : out[k][l][c] / second[k][l];
+          affine[3 * c + k][i + l] = over * out[k][l][c];
   }
 }
 
@@ -256,14 +257,16 @@ INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
 }
 
 /* The same of the affine part of their momentum, which goes with the first moments. */
-INLINE void NAMED(prepare_affine)(const struct point_view *p, size_t i,
+INLINE void NAMED(prepare_affine)(const struct point_view *p, size_t i, double cell,
+                                  double second[DIMENSION][GAMUT_LANES],
                                   double out[DIMENSION + 1][GAMUT_LANES][LINE])
 {
+  const double mean = MEAN_SECOND(cell);
   for (int c = 0; c < DIMENSION; c++)
     for (int k = 0; k < DIMENSION; k++)
       for (int l = 0; l < GAMUT_LANES; l++)
         out[k + 1][l][LINE_MOMENTUM + c] =
-            p->mass[i + (size_t)l] * p->affine[3 * c + k][i + (size_t)l];
+            p->mass[i + (size_t)l] * p->affine[3 * c + k][i + (size_t)l] * (mean / second[k][l]);
 }
 
 INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LANES],
@@ -324,7 +327,8 @@ INLINE void NAMED(scatter_as)(struct work *w, const struct point_view *p, double
     NAMED(prepare)(p, i, force, point);
     if (affine) {
       NAMED(moments)(w, i, cell, weight, moment, second);
-      NAMED(prepare_affine)(p, i, whirl);
+      NAMED(prepare_affine)(p, i, cell, second, whirl);
+      w->mean_second = MEAN_SECOND(cell);
       for (int k = 0; k < DIMENSION; k++)
         memcpy(w->second[k] + i, second[k], sizeof second[k]);
     }
@@ -355,6 +359,7 @@ static void NAMED(scatter_momentum)(struct work *w, const struct point_view *p, 
 }
 
 #undef WEIGHT
+#undef MEAN_SECOND
 #undef TILE
 #undef SIDE
 #undef NODES_Z

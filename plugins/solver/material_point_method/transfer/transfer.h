@@ -25,6 +25,7 @@ struct work {
   int32_t node[STRIDE];    /* number of that node in the tile */
   double value[6][STRIDE]; /* gathered: velocity and its change */
   double second[3][STRIDE]; /* second moments of the weights, m2, if points carry an affine field */
+  double mean_second;       /* what their affine field is told by */
   double *tile;          /* nodes' lines, from the grid */
   double *sums;          /* nodes' lines, to the grid; clear between blocks */
   double prepared[PREPARED][STRIDE];
@@ -66,7 +67,8 @@ struct transfer {
   void (*gather)(struct work *, size_t count, bool velocity);
   void (*gather_gradient)(struct work *, size_t count, double inverse_cell,
                           double *const gradient[9]);
-  /* The affine field of the velocity, components 0 to 2 of a line, around each point (apic). */
+  /* The affine field of the velocity, components 0 to 2 of a line, around each point (apic): its
+   * slope where the second moment of the weights is their mean one. */
   void (*gather_affine)(struct work *, size_t count, double cell, double *const affine[9]);
   /* Mass, momentum and forces into `sums`; or mass and momentum alone. What is still to come after
    * the last chunk of a block `finish` adds; it may be null. */
