@@ -84,14 +84,22 @@ FRAME = (
          "component such as `velocity_y`. Required. Arguments of the measure are further keys."),
         ("effect", "name", "Which effect, where several offer the measure."),
         ("body", "name", "Of which body, where there are several."),
-        ("at", "mapping", "For measures of a point: which."),
+        ("at", "mapping", "For measures of a point: which one, or several."),
         ("reduce", "see below", "One number out of the history. Absent: the history."),
         ("every", "s", "Time between samples; about 500 samples unless stated."))),
     ("A quantity's point, `at`", ("quantities", "*", "at"), (
         ("body", "name", "Where there are several."),
-        ("point", "m, by component", "The point."),
+        ("point", "m, by component", "The point. Or, with a curve for each:"),
+        ("points", "list of points", "Several, at most 1000: the quantity `NAME` becomes `NAME.1`, "
+         "`NAME.2`, ... (`NAME.01`, ... where there are ten or more)."),
+        ("line", "mapping", "Points along a line."),
         ("follow", "material or space", "`material` (as it is unless stated): the point of the "
          "body that is nearest at the start. `space`: what is there."))),
+    ("A line of points, `line`", ("quantities", "*", "at", "line"), (
+        ("from", "m, by component", "The first. Required."),
+        ("to", "m, by component", "The last. Required."),
+        ("points", "whole number", "How many, at equal distances, with both ends; 2 to 1000. "
+         "Required."))),
     ("Outputs", ("outputs",), (
         ("every", "s", "Time between frames."),
         ("frames", "whole number", "How many frames, in place of `every`."),

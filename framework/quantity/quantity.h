@@ -21,6 +21,8 @@ struct history {
   bool has_last;
   bool every_step, grows;  /* no sampling; memory is taken on the way */
   bool failed;             /* and was not there */
+  bool placed;             /* one of a point: */
+  double place[3];         /* where it was at the start, m */
 };
 /* Null when the memory does not suffice for the samples. The caller may set unit, axis, axis_unit.
  */

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <string.h>
 
 #include "report/plot.h"
 #include "report/readable.h"
@@ -41,44 +42,105 @@ static gamut_status write_data(const struct plot *plot, const struct result_hist
   return plot_file_close(plot, data, name);
 }
 
-static void write_curve(FILE *script, const struct result_history *history, const char *name)
+/* The curves of one picture follow one another: those of the points of one quantity. */
+static size_t curves_from(const struct result_history *history, size_t count)
 {
-  char unit[40], label[200];
-  double axis =
-      readable_unit(largest(history->time, history->count), history->axis_unit, unit, sizeof unit);
-  fprintf(script, "set xlabel ");
-  plot_text(script, plot_label(history->axis, unit, label, sizeof label));
-  double factor =
-      readable_unit(largest(history->value, history->count), history->unit, unit, sizeof unit);
-  fprintf(script, "\nset ylabel ");
-  plot_text(script, plot_label(history->name, unit, label, sizeof label));
-  fprintf(script, "\nplot ");
+  size_t curves = 1;
+  while (curves < count && history->family && history[curves].family &&
+         strcmp(history->family, history[curves].family) == 0)
+    ++curves;
+  return curves;
+}
+
+static const char *picture_of(const struct result_history *history, char *name, size_t size)
+{
+  return plot_file_name("history_", history->family ? history->family : history->name, name, size);
+}
+
+/* One curve is blue; of several the first is blue and the last red. */
+static void write_line(FILE *script, const struct result_history *history, size_t number,
+                       size_t curves, double axis, double factor)
+{
+  char name[256];
+  const double part = curves > 1 ? (double)number / (double)(curves - 1) : 0.0;
+  const int red = 0x1f + (int)(part * (0xc8 - 0x1f)), green = 0x5f + (int)(part * (0x30 - 0x5f)),
+            blue = 0xa8 + (int)(part * (0x30 - 0xa8));
+  plot_file_name("history_", history->name, name, sizeof name);
   if (history->deviation)
     fprintf(script,
             "'%s.dat' using ($1*%g):(($2-$3)*%g):(($2+$3)*%g) with filledcurves "
             "linecolor rgb '#c8d9ec' title 'mean +- one standard deviation', ",
             name, axis, factor, factor);
   fprintf(script,
-          "'%s.dat' using ($1*%g):($2*%g) with lines linewidth 2 linecolor rgb '#1f5fa8' "
-          "notitle\n",
-          name, axis, factor);
+          "'%s.dat' using ($1*%g):($2*%g) with lines linewidth 2 linecolor rgb "
+          "'#%02x%02x%02x' ",
+          name, axis, factor, red, green, blue);
+  if (curves > 1 && (number == 0 || number + 1 == curves || curves <= 12)) {
+    fprintf(script, "title ");
+    plot_text(script, history->name);
+  } else {
+    fprintf(script, "notitle");
+  }
 }
 
-static gamut_status write_single(struct plot *plot, const struct result_history *history,
-                                 const char *name)
+static void write_curves(FILE *script, const struct result_history *history, size_t curves)
 {
-  gamut_status status = write_data(plot, history, name);
-  FILE *script = status == GAMUT_OK ? plot_file(plot, name, ".gp") : NULL;
+  char unit[40], label[200];
+  double most = 0.0, axis_most = 0.0;
+  bool first = true;
+  for (size_t i = 0; i < curves; ++i) {
+    most = fmax(most, largest(history[i].value, history[i].count));
+    axis_most = fmax(axis_most, largest(history[i].time, history[i].count));
+  }
+  double axis = readable_unit(axis_most, history->axis_unit, unit, sizeof unit);
+  fprintf(script, "set xlabel ");
+  plot_text(script, plot_label(history->axis, unit, label, sizeof label));
+  double factor = readable_unit(most, history->unit, unit, sizeof unit);
+  const char *name = history->family ? history->family : history->name;
+  fprintf(script, "\nset ylabel ");
+  plot_text(script, plot_label(name, unit, label, sizeof label));
+  fprintf(script, "\nset key %s\nplot ", curves > 1 ? "outside right" : "inside");
+  for (size_t i = 0; i < curves; ++i) {
+    if (!drawable(&history[i]))
+      continue;
+    fprintf(script, "%s", first ? "" : ", ");
+    write_line(script, &history[i], i, curves, axis, factor);
+    first = false;
+  }
+  fprintf(script, "\n");
+}
+
+static gamut_status write_picture(struct plot *plot, const struct result_history *history,
+                                  size_t curves)
+{
+  gamut_status status = GAMUT_OK;
+  char name[256];
+  for (size_t i = 0; i < curves; ++i)
+    if (drawable(&history[i]))
+      TRY(write_data(plot, &history[i],
+                     plot_file_name("history_", history[i].name, name, sizeof name)));
+  picture_of(history, name, sizeof name);
+  FILE *script = plot_file(plot, name, ".gp");
   if (!script)
     return GAMUT_OUTPUT;
   plot_script(script, name, WIDTH, HEIGHT);
   fprintf(script, "set title ");
   plot_text(script, plot->title);
   fputc('\n', script);
-  write_curve(script, history, name);
+  write_curves(script, history, curves);
   fprintf(script, "unset output\n");
-  status = plot_file_close(plot, script, name);
-  return status == GAMUT_OK ? plot_add(plot, name) : status;
+  TRY(plot_file_close(plot, script, name));
+  status = plot_add(plot, name);
+done:
+  return status;
+}
+
+static bool any_drawable(const struct result_history *history, size_t curves)
+{
+  for (size_t i = 0; i < curves; ++i)
+    if (drawable(&history[i]))
+      return true;
+  return false;
 }
 
 /* All of them, two in a row. */
@@ -86,7 +148,6 @@ static gamut_status write_combined(struct plot *plot, const struct result_histor
                                    size_t count, size_t drawn)
 {
   static const char name[] = "history";
-  char part[256];
   FILE *script = plot_file(plot, name, ".gp");
   if (!script)
     return GAMUT_OUTPUT;
@@ -95,10 +156,10 @@ static gamut_status write_combined(struct plot *plot, const struct result_histor
   fprintf(script, "set multiplot layout %zu,%d title ", rows, drawn > 1 ? 2 : 1);
   plot_text(script, plot->title);
   fputc('\n', script);
-  for (size_t i = 0; i < count; ++i) {
-    if (drawable(&history[i]))
-      write_curve(script, &history[i],
-                  plot_file_name("history_", history[i].name, part, sizeof part));
+  for (size_t i = 0, curves; i < count; i += curves) {
+    curves = curves_from(&history[i], count - i);
+    if (any_drawable(&history[i], curves))
+      write_curves(script, &history[i], curves);
   }
   fprintf(script, "unset multiplot\nunset output\n");
   gamut_status status = plot_file_close(plot, script, name);
@@ -108,14 +169,13 @@ static gamut_status write_combined(struct plot *plot, const struct result_histor
 gamut_status plot_histories(struct plot *plot, const struct result_history *history, size_t count)
 {
   gamut_status status = GAMUT_OK;
-  char name[256];
   size_t drawn = 0;
-  for (size_t i = 0; i < count; ++i) {
-    if (!drawable(&history[i]))
+  for (size_t i = 0, curves; i < count; i += curves) {
+    curves = curves_from(&history[i], count - i);
+    if (!any_drawable(&history[i], curves))
       continue;
     ++drawn;
-    TRY(write_single(plot, &history[i],
-                     plot_file_name("history_", history[i].name, name, sizeof name)));
+    TRY(write_picture(plot, &history[i], curves));
   }
   if (drawn > 0)
     status = write_combined(plot, history, count, drawn);

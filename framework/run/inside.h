@@ -53,6 +53,7 @@ struct probe {
   struct running_effect *effect; /* provider, or null: the solver */
   int64_t id;             /* the point that is followed */
   size_t slot;            /* where it was last */
+  bool gone;              /* and is no more */
   double distance;        /* of the point from the place asked for */
   bool left;              /* the point is no longer there */
 };
@@ -102,6 +103,9 @@ struct gamut_run {
   struct probe *probe;
   size_t probes;
   struct history **history;
+  struct probe **follower; /* those that follow a point, by body and id */
+  size_t followers;
+  const struct quantity *measuring; /* what a plugin measures now, for messages */
   struct frame_column *column;
   size_t columns;
 

@@ -18,20 +18,28 @@ static bool from_points(const struct quantity *quantity)
 }
 
 /* A typing error in `every` must not take all memory. */
-static const double samples_most = 1e7;
+static const double samples_most = 1e7, samples_most_in_all = 1e8;
 
-static gamut_status check_samples(struct gamut_run *run, const struct quantity *quantity)
+static gamut_status check_samples(struct gamut_run *run, const struct quantity *quantity,
+                                  double *in_all)
 {
-  if (!(quantity->every > 0.0) || run->end / quantity->every <= samples_most)
-    return GAMUT_OK;
-  return trace_fail_at(run->trace, GAMUT_SCENE, quantity->node ? &quantity->node->place : NULL,
-                       quantity->name, "a longer `every`",
-                       "quantity '%s' would have %.3g samples; %g are the most", quantity->name,
-                       run->end / quantity->every, samples_most);
+  const double samples = quantity->every > 0.0 ? run->end / quantity->every : 0.0;
+  const struct place *place = quantity->node ? &quantity->node->place : NULL;
+  const char *name = quantity->family ? quantity->family : quantity->name;
+  *in_all += samples;
+  if (samples > samples_most)
+    return trace_fail_at(run->trace, GAMUT_SCENE, place, name, "a longer `every`",
+                         "quantity '%s' would have %.3g samples; %g are the most", name, samples,
+                         samples_most);
+  if (*in_all > samples_most_in_all)
+    return trace_fail_at(run->trace, GAMUT_SCENE, place, name, "fewer points or a longer `every`",
+                         "with quantity '%s' there would be more than %g samples", name,
+                         samples_most_in_all);
+  return GAMUT_OK;
 }
 
 static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
-                                 const struct quantity *quantity)
+                                 const struct quantity *quantity, double *samples)
 {
   gamut_status status = GAMUT_OK;
   char why[160];
@@ -39,7 +47,7 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
   probe->quantity = quantity;
   probe->formula.plain = SIZE_MAX;
   probe->id = -1;
-  TRY(check_samples(run, quantity));
+  TRY(check_samples(run, quantity, samples));
   probe->history = history_new(quantity, run->end);
   if (!probe->history)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
@@ -63,11 +71,11 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
   } else if (quantity->effect) {
     probe->effect = effect_called(run, quantity->effect);
     if (!probe->effect)
-      status = trace_fail_at(run->trace, GAMUT_SCENE,
-                             quantity->node ? &quantity->node->place : NULL, quantity->name,
-                             "turn the effect on or leave the quantity out",
-                             "quantity '%s' is measured by the effect '%s', which is off",
-                             quantity->name, quantity->effect);
+      status =
+          trace_fail_at(run->trace, GAMUT_SCENE, quantity->node ? &quantity->node->place : NULL,
+                        quantity->name, "turn the effect on or leave the quantity out",
+                        "quantity '%s' is measured by the effect '%s', which is off",
+                        quantity->name, quantity->effect);
   }
 done:
   return status;
@@ -77,13 +85,15 @@ gamut_status observe_create(struct gamut_run *run)
 {
   gamut_status status = GAMUT_OK;
   size_t count = run->scene->quantities;
+  double samples = 0.0;
   run->probe = calloc(count + 1, sizeof *run->probe);
   run->history = calloc(count + 1, sizeof(*run->history));
-  if (!run->probe || !run->history)
+  run->follower = calloc(count + 1, sizeof(*run->follower));
+  if (!run->probe || !run->history || !run->follower)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t i = 0; i < count; i++) {
     run->probes = i + 1;
-    TRY(create_probe(run, &run->probe[i], &run->scene->quantity[i]));
+    TRY(create_probe(run, &run->probe[i], &run->scene->quantity[i], &samples));
     run->history[i] = run->probe[i].history;
   }
 done:
@@ -98,16 +108,28 @@ void observe_free(struct gamut_run *run)
   }
   free(run->probe);
   free(run->history);
+  free(run->follower);
 }
 
-static double distance_squared(const struct gamut_run *run, const struct point_set *set,
-                               size_t slot, const double point[3])
+/* Where the points of a set are. */
+struct whereabouts {
+  const double *x[3];
+};
+
+static struct whereabouts places_of(const struct gamut_run *run, const struct point_set *set)
 {
+  struct whereabouts places = {{NULL, NULL, NULL}};
   const struct field *position = fields_find(run->fields, "position");
+  for (unsigned k = 0; position && k < 3; k++)
+    places.x[k] = set_stored(set, position->handle, k);
+  return places;
+}
+
+static double distance_squared(const struct whereabouts *places, size_t slot, const double point[3])
+{
   double sum = 0.0;
-  for (unsigned k = 0; position && k < 3; k++) {
-    const double *x = set_stored(set, position->handle, k);
-    double d = x ? x[slot] - point[k] : 0.0;
+  for (unsigned k = 0; k < 3; k++) {
+    double d = places->x[k] ? places->x[k][slot] - point[k] : 0.0;
     sum += d * d;
   }
   return sum;
@@ -117,11 +139,12 @@ static double distance_squared(const struct gamut_run *run, const struct point_s
 static void find_point(const struct gamut_run *run, struct probe *probe)
 {
   const struct point_set *set = run->set[probe->quantity->body];
+  const struct whereabouts places = places_of(run, set);
   double best = INFINITY;
   for (size_t slot = 0; slot < set->open.slots; slot++) {
     if (set->id[slot] < 0)
       continue;
-    double d = distance_squared(run, set, slot, probe->quantity->point);
+    double d = distance_squared(&places, slot, probe->quantity->point);
     if (d < best || (d == best && set->id[slot] < probe->id)) {
       best = d;
       probe->id = set->id[slot];
@@ -129,26 +152,70 @@ static void find_point(const struct gamut_run *run, struct probe *probe)
     }
   }
   probe->distance = sqrt(best);
+  for (unsigned k = 0; k < 3 && probe->id >= 0; k++)
+    probe->history->place[k] = places.x[k] ? places.x[k][probe->slot] : 0.0;
 }
 
-static double at_material_point(const struct gamut_run *run, struct probe *probe)
+static int by_point(const void *one, const void *other)
+{
+  const struct probe *a = *(struct probe *const *)one, *b = *(struct probe *const *)other;
+  if (a->quantity->body != b->quantity->body)
+    return a->quantity->body < b->quantity->body ? -1 : 1;
+  return (a->id > b->id) - (a->id < b->id);
+}
+
+/* Finds all points of a body that are followed, in one pass over its slots. */
+static void find_again(struct gamut_run *run, int body)
+{
+  const struct point_set *set = run->set[body];
+  const size_t count = run->followers;
+  for (size_t i = 0; i < count; i++)
+    if (run->follower[i]->quantity->body == body)
+      run->follower[i]->slot = SIZE_MAX;
+  for (size_t slot = 0; slot < set->open.slots; slot++) {
+    size_t low = 0, high = count;
+    while (low < high) {
+      const struct probe *middle = run->follower[(low + high) / 2];
+      if (middle->quantity->body < body ||
+          (middle->quantity->body == body && middle->id < set->id[slot]))
+        low = (low + high) / 2 + 1;
+      else
+        high = (low + high) / 2;
+    }
+    while (low < count && run->follower[low]->quantity->body == body &&
+           run->follower[low]->id == set->id[slot])
+      run->follower[low++]->slot = slot;
+  }
+}
+
+static double at_material_point(struct gamut_run *run, struct probe *probe)
 {
   const struct point_set *set = run->set[probe->quantity->body];
+  if (probe->gone || probe->id < 0)
+    return NAN;
   if (probe->slot >= set->open.slots || set->id[probe->slot] != probe->id)
-    probe->slot = set_find(set, probe->id);
-  return probe->slot == SIZE_MAX ? NAN : formula_value(&probe->formula, run, set, probe->slot);
+    find_again(run, probe->quantity->body);
+  if (probe->slot != SIZE_MAX)
+    return formula_value(&probe->formula, run, set, probe->slot);
+  probe->gone = true;
+  trace_warn_at(run->trace, NULL, NULL, NULL,
+                "the point that quantity '%s' follows is gone at t = %g: it has no values from "
+                "there on",
+                probe->quantity->name, run->time);
+  return NAN;
 }
 
 /* Mean over the body's points within one cell of the place. */
 static double at_place(const struct gamut_run *run, struct probe *probe)
 {
   const struct point_set *set = run->set[probe->quantity->body];
+  const struct whereabouts places = places_of(run, set);
   const struct field *cell = fields_find(run->fields, "cell_size");
   double reach = cell && run->uniform[cell->handle.first] ? *run->uniform[cell->handle.first] : 0.0;
   double sum = 0.0, count = 0.0;
   for (size_t slot = 0; slot < set->open.slots; slot++)
     if (set->id[slot] >= 0 &&
-        distance_squared(run, set, slot, probe->quantity->point) <= reach * reach) {
+        distance_squared(&places, slot, probe->quantity->point) <= reach * reach) {
       sum += formula_value(&probe->formula, run, set, slot);
       count += 1.0;
     }
@@ -164,11 +231,16 @@ static gamut_status probe_value(struct gamut_run *run, struct probe *probe,
     return GAMUT_OK;
   }
   const struct gamut_body *body = q->body >= 0 ? &run->scene->body[q->body] : NULL;
-  if (probe->effect && probe->effect->ops->measure)
-    return probe->effect->ops->measure(probe->effect->self, measure->name, body, q->arguments,
-                                       value);
-  if (!probe->effect && run->solver->measure)
-    return run->solver->measure(run->solver_self, measure->name, body, q->arguments, value);
+  if (probe->effect ? probe->effect->ops->measure : run->solver->measure) {
+    run->measuring = q;
+    gamut_status status =
+        probe->effect
+            ? probe->effect->ops->measure(probe->effect->self, measure->name, body, q->arguments,
+                                          value)
+            : run->solver->measure(run->solver_self, measure->name, body, q->arguments, value);
+    run->measuring = NULL;
+    return status;
+  }
   return trace_fail(run->trace, GAMUT_PLUGIN,
                     "the measure '%s' is declared, but its plugin has no operation `measure`",
                     measure->name);
@@ -217,11 +289,22 @@ done:
 gamut_status observe_start(struct gamut_run *run)
 {
   gamut_status status = GAMUT_OK;
+  run->followers = 0;
   for (size_t i = 0; i < run->probes; i++) {
-    if (from_points(run->probe[i].quantity) && run->probe[i].quantity->has_point)
-      find_point(run, &run->probe[i]);
-    TRY(tell(run, &run->probe[i], false));
+    struct probe *probe = &run->probe[i];
+    const struct quantity *q = probe->quantity;
+    if (!from_points(q))
+      continue;
+    probe->history->placed = q->has_point;
+    memcpy(probe->history->place, q->point, sizeof probe->history->place);
+    if (q->follow_space)
+      continue;
+    find_point(run, probe);
+    run->follower[run->followers++] = probe;
   }
+  qsort(run->follower, run->followers, sizeof(*run->follower), by_point);
+  for (size_t i = 0; i < run->probes; i++)
+    TRY(tell(run, &run->probe[i], false));
 done:
   return status;
 }

@@ -40,7 +40,9 @@ static json_t *quantity_json(const struct probe *probe)
     json_object_set_new(entry, time ? "times" : h->axis, numbers(h->time, h->count));
     json_object_set_new(entry, "values", numbers(h->value, h->count));
   }
-  if (probe->id >= 0) {
+  if (h->placed)
+    json_object_set_new(entry, "place", numbers(h->place, 3));
+  if (h->placed && probe->id >= 0) {
     json_object_set_new(entry, "point", json_integer(probe->id));
     json_object_set_new(entry, "distance", number(probe->distance));
   }

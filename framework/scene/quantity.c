@@ -126,97 +126,6 @@ static bool measure_find(struct reading *reading, const struct tree *node, const
   return quantity->measure != NULL;
 }
 
-static bool body_find(struct reading *reading, const struct tree *node, int *body)
-{
-  char expected[WORDS_SIZE];
-  const char *name = text_read(reading, node, "body");
-  for (size_t i = 0; name && i < reading->bodies; i++)
-    if (strcmp(reading->body[i], name) == 0) {
-      *body = (int)i;
-      return true;
-    }
-  if (name && reading->body)
-    blame_value(reading, node,
-                suggest(name, reading->body, reading->bodies, expected, sizeof expected),
-                "unknown body '%.60s'", name);
-  return false;
-}
-
-/* The body of a measure that has one: the only one of the scene unless it is named. */
-static void body_default(struct reading *reading, const struct tree *node,
-                         struct quantity *quantity)
-{
-  const struct tree *given = tree_get(node, "body");
-  char expected[WORDS_SIZE], list[WORDS_SIZE - 32];
-  if (given) {
-    body_find(reading, given, &quantity->body);
-  } else if (reading->bodies == 1) {
-    quantity->body = 0;
-  } else if (reading->bodies > 1) {
-    snprintf(expected, sizeof expected, "body: one of %s",
-             list_text(reading->body, reading->bodies, list, sizeof list));
-    blame_key(reading, node, expected, "'body' is missing in quantity '%s'", quantity->name);
-  }
-}
-
-static void point_read(struct reading *reading, const struct tree *at, struct quantity *quantity)
-{
-  const struct tree *point = tree_get(at, "point"), *follow = tree_get(at, "follow");
-  size_t count, axes = reading->axes ? reading->axes : 3;
-  if (reading->lost)
-    return;
-  double *number = point ? vector_read(reading, point, "point", "m", axes, axes, &count) : NULL;
-  if (number) {
-    memcpy(quantity->point, number, count * sizeof *number);
-    quantity->has_point = true;
-  } else if (!point && reading->axes && !was_meant(reading, at, "point")) {
-    blame_key(reading, at, "at: {body:, point: [..], follow: material | space}",
-              "'point' is missing in 'at'");
-  }
-  free(number);
-  const char *text = follow ? text_read(reading, follow, "follow") : NULL;
-  if (text && strcmp(text, "space") != 0 && strcmp(text, "material") != 0)
-    blame_value(reading, follow, "material or space", "'follow' cannot be '%.40s'", text);
-  quantity->follow_space = text && strcmp(text, "space") == 0;
-  const struct scene *scene = reading->scene;
-  const struct shape *shape = quantity->body >= 0 ? &scene->body[quantity->body].shape : NULL;
-  if (quantity->has_point && !quantity->follow_space && shape && shape->kind != SHAPE_NONE &&
-      !shape_inside(shape, quantity->point, -1e-9 * (1 + shape->radius)))
-    warn_value(reading, point, "the nearest point of the body is taken",
-               "the point lies outside body '%s'", scene->body[quantity->body].name);
-}
-
-static void at_read(struct reading *reading, const struct tree *node, struct quantity *quantity)
-{
-  static const char *const known[] = {"body", "point", "follow"};
-  const struct measure *measure = quantity->measure;
-  bool argument = parameter_named(measure->argument, measure->arguments, "at") != NULL;
-  const struct tree *at = argument ? NULL : tree_get(node, "at");
-  if (quantity->measure->at != MEASURE_POINT) {
-    if (at)
-      blame_key(reading, at, quantity->measure->at == MEASURE_BODY ? "body: NAME" : NULL,
-                "measure '%s' is not one of a point", quantity->measure->name);
-    if (quantity->measure->at == MEASURE_BODY)
-      body_default(reading, node, quantity);
-    else if (tree_get(node, "body"))
-      body_find(reading, tree_get(node, "body"), &quantity->body);
-    return;
-  }
-  if (at) {
-    if (!expect_mapping(reading, at, "'at'"))
-      return;
-    expect_keys(reading, at, known, COUNT_OF(known), "'at'");
-    body_default(reading, tree_get(at, "body") ? at : node, quantity);
-    point_read(reading, at, quantity);
-  } else if (reading->axes && !was_meant(reading, node, "at")) {
-    blame_key(reading, node, "at: {body:, point: [..], follow: material | space}",
-              "'at' is missing in quantity '%s': '%s' is a measure of points", quantity->name,
-              quantity->measure->name);
-  } else {
-    body_default(reading, node, quantity);
-  }
-}
-
 static void when_read(struct reading *reading, const struct tree *node, struct quantity *quantity)
 {
   const struct tree *reduce = tree_get(node, "reduce"), *every = tree_get(node, "every");
@@ -228,7 +137,7 @@ static void when_read(struct reading *reading, const struct tree *node, struct q
 }
 
 static void quantity_read(struct reading *reading, const struct tree *node,
-                          struct quantity *quantity)
+                          struct quantity *quantity, struct places *places)
 {
   char path[PATH_SIZE], what[160];
   const char *effect;
@@ -262,8 +171,29 @@ static void quantity_read(struct reading *reading, const struct tree *node,
                             .also = own_keys,
                             .others = COUNT_OF(own_keys)};
   quantity->arguments = section_read(reading, &section);
-  at_read(reading, node, quantity);
+  at_read(reading, node, quantity, places);
   when_read(reading, node, quantity);
+}
+
+/* One quantity for each of several points: NAME.01, NAME.02, ... */
+static void put_tracers(struct reading *reading, const struct tree *all,
+                        const struct quantity *quantity, const struct places *places)
+{
+  struct scene *scene = reading->scene;
+  const int digits = snprintf(NULL, 0, "%zu", places->count);
+  for (size_t i = 0; i < places->count; i++) {
+    struct quantity *one = &scene->quantity[scene->quantities++];
+    *one = *quantity;
+    one->family = quantity->name;
+    one->name = scene_text(reading, "%s.%0*zu", quantity->name, digits, i + 1);
+    one->arguments = i == 0 ? quantity->arguments : NULL; /* freed once; points need none */
+    memcpy(one->point, &places->place[3 * i], sizeof one->point);
+    const struct tree *other = tree_get(all, one->name);
+    if (other)
+      blame_key(reading, other, "another name",
+                "'%s' is the name of a point of the quantity '%s' already", one->name,
+                quantity->name);
+  }
 }
 
 void quantities_read(struct reading *reading, const struct tree *root)
@@ -272,11 +202,21 @@ void quantities_read(struct reading *reading, const struct tree *root)
   const struct tree *node = tree_get(root, "quantities");
   if (!node || !expect_mapping(reading, node, "'quantities'"))
     return;
-  scene->quantity = scene_take(node->children, sizeof *scene->quantity);
-  scene->quantities = node->children;
+  size_t room = 0;
   for (size_t i = 0; i < node->children; i++) {
-    scene->quantity[i] =
-        (struct quantity){.name = node->child[i]->key, .body = -1, .node = node->child[i]};
-    quantity_read(reading, node->child[i], &scene->quantity[i]);
+    struct places places = {0};
+    struct quantity quantity = {.name = node->child[i]->key, .body = -1, .node = node->child[i]};
+    quantity_read(reading, node->child[i], &quantity, &places);
+    room = scene->quantities + (places.count > 0 ? places.count : 1);
+    struct quantity *more = scene_take(room, sizeof *more);
+    if (scene->quantities > 0)
+      memcpy(more, scene->quantity, scene->quantities * sizeof *more);
+    free(scene->quantity);
+    scene->quantity = more;
+    if (places.count > 0)
+      put_tracers(reading, node, &quantity, &places);
+    else
+      scene->quantity[scene->quantities++] = quantity;
+    free(places.place);
   }
 }

@@ -160,6 +160,13 @@ bool shape_read(struct reading *, const struct tree *, struct shape *);
 void bodies_check(struct reading *); /* overlaps, domain, cell */
 void effects_read(struct reading *, const struct tree *root);
 void quantities_read(struct reading *, const struct tree *root);
+/* quantity_at.c: where it is taken. Where there are several points `places` gets them, x y z of one
+ * after the other, to be freed; else its count is 0. */
+struct places {
+  double *place;
+  size_t count;
+};
+void at_read(struct reading *, const struct tree *, struct quantity *, struct places *);
 bool reduction_read(struct reading *, const struct tree *, const struct measure *,
                     struct reduction *);
 void outputs_read(struct reading *, const struct tree *root);

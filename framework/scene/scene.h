@@ -171,6 +171,7 @@ struct reduction {
 
 struct quantity {
   const char *name;
+  const char *family; /* of one of several points: the name in the scene, "speed" of "speed.07" */
   const struct measure *measure;
   const struct descriptor
       *provider;            /* whose measure it is; null: a plain field of the vocabulary */

@@ -241,8 +241,13 @@ static json_t *body_schema(const struct registry *registry)
 
 static json_t *quantity_schema(const struct registry *registry)
 {
-  json_t *at = object(json_pack("{s:{s:s}, s:o, s:{s:[s, s]}}", "body", "type", "string", "point",
-                                reference("place"), "follow", "enum", "material", "space"),
+  json_t *line = object(json_pack("{s:o, s:o, s:{s:s}}", "from", reference("place"), "to",
+                                  reference("place"), "points", "type", "integer"),
+                        true);
+  json_t *at = object(json_pack("{s:{s:s}, s:o, s:o, s:o, s:{s:[s, s]}}", "body", "type", "string",
+                                "point", reference("place"), "points",
+                                list_of(reference("place"), 1, 0), "line", line, "follow", "enum",
+                                "material", "space"),
                       true);
   json_t *properties = json_pack(
       "{s:{s:s}, s:{s:s}, s:{s:s}, s:o, s:o, s:o}", "measure", "type", "string", "effect", "type",

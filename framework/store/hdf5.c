@@ -105,6 +105,18 @@ herr_t hdf5_real_attribute(hid_t at, const char *name, double value)
   return attribute(at, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
 }
 
+herr_t hdf5_reals_attribute(hid_t at, const char *name, const double *value, size_t count)
+{
+  hsize_t size = count;
+  hid_t space = H5Screate_simple(1, &size, NULL);
+  hid_t made = H5Acreate2(at, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT);
+  herr_t result = made < 0 ? -1 : H5Awrite(made, H5T_NATIVE_DOUBLE, value);
+  if (made >= 0)
+    H5Aclose(made);
+  H5Sclose(space);
+  return result;
+}
+
 herr_t hdf5_whole_attribute(hid_t at, const char *name, long long value)
 {
   return attribute(at, name, H5T_STD_I64LE, H5T_NATIVE_LLONG, &value);

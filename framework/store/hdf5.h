@@ -22,6 +22,7 @@ gamut_status hdf5_flush(hid_t file, const char *path, struct trace *);
 /* These return a negative value on failure; the caller asks hdf5_fault for the reason. */
 herr_t hdf5_text_attribute(hid_t at, const char *name, const char *text);
 herr_t hdf5_real_attribute(hid_t at, const char *name, double value);
+herr_t hdf5_reals_attribute(hid_t at, const char *name, const double *value, size_t count);
 herr_t hdf5_whole_attribute(hid_t at, const char *name, long long value);
 herr_t hdf5_text_dataset(hid_t at, const char *name, const char *text);
 /* rows x columns; columns 1 gives one dimension. Returns the open dataset. */

@@ -79,6 +79,10 @@ static herr_t write_history(hid_t parent, const struct history *history)
   herr_t result = hdf5_text_attribute(group, "axis", history->axis);
   if (result >= 0 && quantity->measure && quantity->measure->doc)
     result = hdf5_text_attribute(group, "meaning", quantity->measure->doc);
+  if (result >= 0 && history->placed)
+    result = hdf5_reals_attribute(group, "place", history->place, 3);
+  if (result >= 0 && quantity->family)
+    result = hdf5_text_attribute(group, "family", quantity->family);
   if (result >= 0)
     result = write_series(group, history->axis, history->axis_unit, history->count, history->time);
   if (result >= 0)

@@ -108,6 +108,7 @@ static bool read_history(hid_t parent, size_t index, struct result_history *hist
   if (group < 0)
     return false;
   history->axis = hdf5_read_text_attribute(group, "axis");
+  history->family = hdf5_read_text_attribute(group, "family");
   if (!history->axis)
     history->axis = strdup("time");
   bool study = H5Lexists(group, "mean", H5P_DEFAULT) > 0;
@@ -157,6 +158,7 @@ void result_histories_free(struct result_history *history, size_t count)
     free(history[i].unit);
     free(history[i].axis);
     free(history[i].axis_unit);
+    free(history[i].family);
     free(history[i].time);
     free(history[i].value);
     free(history[i].deviation);

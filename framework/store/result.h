@@ -41,6 +41,7 @@ void result_frame_free(struct result_frame *); /* accepts null */
 
 struct result_history {
   char *name, *unit, *axis, *axis_unit;
+  char *family; /* of one of several points: the quantity's name in the scene; else null */
   size_t count;
   double *time, *value;
   double *deviation; /* of a study, whose mean is `value`; null: of one run */
