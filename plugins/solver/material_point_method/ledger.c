@@ -4,8 +4,8 @@
  * remainder of the stress update is what internal forces took from the grid and the material's
  * energy does not show.
  *
- * Velocities stand half a step before stresses, so the energy of one time is the kinetic energy with
- * the internal energy of half a step ago: a line takes back half of what the last step added.
+ * Velocities stand half a step before stresses, so the energy of one time is the kinetic energy
+ * with the internal energy of half a step ago: a line takes back half of what the last step added.
  *
  * Momentum is stored as what goes forward and what goes backward, so that the balance of a body at
  * rest as a whole has a scale to be measured by. */

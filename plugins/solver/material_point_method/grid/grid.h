@@ -18,8 +18,8 @@ enum {
   LINE = 8,       /* doubles a node: mass, momentum x y z, force x y z, squared mass */
   NEIGHBOURS = 27 /* at most */
 };
-/* A line after the sums ... LINE_SQUARE is the sum of N m^2 of the points where the model asks for it,
- * else 0; planes make it negative at nodes that they act on. */
+/* A line after the sums ... LINE_SQUARE is the sum of N m^2 of the points where the model asks for
+ * it, else 0; planes make it negative at nodes that they act on. */
 enum { LINE_MASS = 0, LINE_MOMENTUM = 1, LINE_FORCE = 4, LINE_SQUARE = 7 };
 /* ... and after the update. LINE_CHANGE is the step's change of velocity as the points' velocity
  * gets it; the part LINE_SLOW of it is in LINE_VELOCITY. In the second pass of MUSL the first new

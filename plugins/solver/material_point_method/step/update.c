@@ -48,7 +48,9 @@ static void update_node(const struct model *m, double *line, const double x[3], 
 {
   const double mass = line[LINE_MASS], square = line[LINE_SQUARE];
   const bool touched = signbit(square);
-  const double over = 1.0 / mass, slow = 1.0 / step_slow_mass(m, mass, square);
+  const double over = 1.0 / mass;
+  const bool heavy = mass > m->grid.empty && !m->limited;
+  const double slow = heavy ? over : 1.0 / step_slow_mass(m, mass, square);
   double v[3], change[3], whole[3], spin[3];
   for (int k = 0; k < 3; k++) {
     const double push = step * line[LINE_FORCE + k];

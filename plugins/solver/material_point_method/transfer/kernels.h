@@ -73,7 +73,7 @@ INLINE void NAMED(weights)(const struct work *w, size_t i, double scale,
     JOIN(shape, SHAPE)(w->place[k] + i, w->reach[k] + i, scale, weight[k], slope[k]);
 }
 
-/* First moments of the weights about the point, and their second moment: sum of w (x_node - x)^2. */
+/* First moments of the weights about the point, and their second one: sum of w (x_node - x)^2. */
 INLINE void NAMED(moments)(const struct work *w, size_t i, double cell,
                            double weight[DIMENSION][NODES][GAMUT_LANES],
                            double moment[DIMENSION][NODES][GAMUT_LANES],
