@@ -28,6 +28,11 @@ EVERY = {
 }
 
 
+# Shapes, transfers and orders that keep something of their own between two steps.
+SCHEMES = (("shape=linear",), ("shape=quadratic",), ("shape=gimp", "transfer={model: apic}"),
+           ("shape=cubic", "transfer={model: xpic, order: 2}", "order=usf"))
+
+
 def compare(name, scene, settings, every, folder):
     label = "_".join([name, *(s.split("=")[1] for s in settings if "shape" in s)])
     whole, cut = os.path.join(folder, label + "-whole"), os.path.join(folder, label + "-cut")
@@ -53,8 +58,6 @@ with tempfile.TemporaryDirectory() as scratch:
             continue
         grid = scene["solver"]["model"] == "material_point_method"
         every = EVERY.get(name, SHOT if grid else BAR)
-        shapes = ("linear", "quadratic") if grid else (None,)
-        for shape in shapes:
-            compare(name, path, settings + ([f"solver.shape={shape}"] if shape else []), every,
-                    scratch)
+        for scheme in SCHEMES if grid else ((),):
+            compare(name, path, settings + [f"solver.{s}" for s in scheme], every, scratch)
 done()

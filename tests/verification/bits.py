@@ -3,12 +3,24 @@ import scenes  # before h5py and numpy: it skips the test where they are missing
 import h5py
 import numpy
 
-SCENES = {"taylor_bar": {"solver.cell": "0.5 mm", "solver.end": "12 us"},
-          "taylor_bar_3d": {"solver.cell": "1 mm", "solver.end": "10 us"},
-          "taylor_bar_4340": {"solver.cell": "0.5 mm", "solver.end": "6 us",
-                              "solver.shape": "linear"},
-          "plate_impact": {}, "sod": {"solver.end": "0.05 s", "quantities": "{}"},
-          "vibrating_bar": {"solver.end": "2 s"}}
+SHORT_3D = {"solver.cell": "1.27 mm", "solver.end": "8 us"}
+SCENES = (("taylor_bar", {"solver.cell": "0.5 mm", "solver.end": "12 us"}),
+          ("taylor_bar_3d", {"solver.cell": "1 mm", "solver.end": "10 us"}),
+          ("taylor_bar_4340", {"solver.cell": "0.5 mm", "solver.end": "6 us",
+                               "solver.shape": "linear"}),
+          ("plate_impact", {}), ("sod", {"solver.end": "0.05 s", "quantities": "{}"}),
+          ("vibrating_bar", {"solver.end": "2 s"}),
+          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "linear", "solver.order": "usl"}),
+          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "linear", "solver.order": "usf",
+                             "solver.transfer": "{model: xpic, order: 3}"}),
+          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "gimp",
+                             "solver.transfer": "{model: apic}"}),
+          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "cubic", "solver.order": "musl",
+                             "solver.transfer": "{model: apic}"}),
+          ("colliding_disks", {"solver.end": "0.4 s", "solver.shape": "gimp",
+                               "solver.order": "usf"}),
+          ("rotating_block", {"solver.end": "0.2 s", "solver.shape": "cubic",
+                              "solver.transfer": "{model: xpic, order: 4}"}))
 WAYS = ((2, None), (3, None), (1, 8), (2, 100), (3, 1024))
 
 
@@ -30,11 +42,17 @@ def history(result):
         return file.read()
 
 
-for scene, changes in SCENES.items():
+def label(scene, changes):
+    """The scene with the scheme that was chosen for it."""
+    scheme = [v for k, v in changes.items() if k[7:] in ("shape", "order", "transfer")]
+    return ", ".join([scene, *scheme])
+
+
+for scene, changes in SCENES:
     first = scenes.run(scene, changes, threads=1)
-    shown, recorded = frames(first), history(first)
+    shown, recorded, name = frames(first), history(first), label(scene, changes)
     scenes.report(len(shown) >= 6 and sum(map(len, shown.values())) > 1000,
-                  f"{scene}: {len(shown)} arrays in the frames")
+                  f"{name}: {len(shown)} arrays in the frames")
     for threads, block in WAYS:
         size = {} if block is None else {"solver.block": str(block)}
         other = scenes.run(scene, {**changes, **size}, threads=threads)
@@ -42,7 +60,7 @@ for scene, changes in SCENES.items():
         differ = sorted(k for k in set(shown) | set(again) if shown.get(k) != again.get(k))
         if history(other) != recorded:
             differ.append("history.csv")
-        scenes.report(not differ, f"{scene}: same bits with {threads} threads, blocks of "
+        scenes.report(not differ, f"{name}: same bits with {threads} threads, blocks of "
                                   f"{block or 'the usual size'}", differ[:8])
         scenes.drop(other)
     scenes.drop(first)
