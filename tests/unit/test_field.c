@@ -69,6 +69,25 @@ static void test_arrange(struct bed *bed)
   tap_ok(stress[23] == 3.0, "padding copies the state: %g", stress[23]);
 }
 
+/* Points leave the middle and the end of the first block, and all of the second. */
+static void test_drop(struct bed *bed)
+{
+  const uint32_t some[] = {2, 14}, rest[] = {16, 17, 18, 19};
+  const double *mass = set_stored(bed->set, bed->mass->handle, 0);
+  set_drop(bed->set, some, 2);
+  tap_ok(bed->set->open.points == 18 && bed->set->id[2] == 4 && mass[2] == 5.0,
+         "the last point of a block takes the free slot: id %lld, mass %g",
+         (long long)bed->set->id[2], mass[2]);
+  tap_ok(bed->set->id[13] == 6 && bed->set->id[14] == -1 && bed->set->id[15] == -1 &&
+             mass[14] == 0.0 && mass[15] == 0.0,
+         "padding stays at the end of the block");
+  tap_ok(set_find(bed->set, 17) == SIZE_MAX && set_find(bed->set, 5) == SIZE_MAX,
+         "who left is not found");
+  set_drop(bed->set, rest, 4);
+  tap_ok(bed->set->open.points == 14 && bed->set->id[16] == -1 && mass[16] == 0.0,
+         "a block can lose all of its points");
+}
+
 static void test_chunk(struct bed *bed)
 {
   unsigned char source[9];
@@ -123,6 +142,7 @@ int main(void)
   test_names(&bed);
   test_arrange(&bed);
   test_chunk(&bed);
+  test_drop(&bed);
   test_arena();
   set_free(bed.set);
   bed.set = set_new(bed.arena, "bar", 0, 0, POINTS);

@@ -93,7 +93,8 @@ gamut_status removal_room(struct model *m)
 
 /* What the points of a chunk are at the end of the step; null where this sweep does not know it. */
 struct state {
-  double *x[3], *v[3], *slope[9], *stress[6], *force[3], *mass, *ratio, *energy, *omega;
+  double *x[3], *v[3], *slope[9], *length[3], *stress[6], *force[3];
+  double *mass, *ratio, *energy, *omega;
 };
 
 static struct state state_of(const struct model *m, const struct gamut_chunk *chunk)
@@ -106,6 +107,7 @@ static struct state state_of(const struct model *m, const struct gamut_chunk *ch
     s.x[k] = gamut_end(chunk, m->field.position, k);
     s.v[k] = gamut_end(chunk, m->field.velocity, k);
     s.force[k] = gamut_end(chunk, m->field.external_force, k);
+    s.length[k] = gamut_end(chunk, m->field.domain_length, k);
   }
   for (unsigned k = 0; k < 6; k++)
     s.stress[k] = gamut_end(chunk, m->field.stress, k);
@@ -130,17 +132,24 @@ static double nought(const double *value, size_t i)
   return value != NULL ? 0.0 * value[i] : 0.0;
 }
 
-static bool is_lost(const struct model *m, const struct locate *l, const struct state *s, size_t i)
+/* Whether the point is in its tile, and its state is made of numbers. */
+static bool is_sound(const struct model *m, const struct locate *l, const struct state *s, size_t i)
 {
   double zero = nought(s->ratio, i) + nought(s->energy, i);
   for (unsigned k = 0; k < 3; k++)
     zero += nought(s->v[k], i) + nought(s->force[k], i);
   for (unsigned k = 0; k < 6; k++)
     zero += nought(s->stress[k], i);
-  if (zero != 0.0 || !in_tile(m, l, s, i))
+  return zero == 0.0 && in_tile(m, l, s, i);
+}
+
+static bool is_lost(const struct model *m, const struct locate *l, const struct state *s, size_t i)
+{
+  if (!is_sound(m, l, s, i))
     return true;
   for (unsigned k = 0; k < m->dimension; k++)
-    if (fabs(s->x[k][i] - m->grid.origin[k]) * l->inverse_cell > GRID_REACH - 2 * m->grid.side)
+    if (fabs(s->x[k][i] - m->grid.origin[k]) * l->inverse_cell > GRID_REACH - 2 * m->grid.side ||
+        (s->length[k] != NULL && !(s->length[k][i] > 0.0)))
       return true;
   return m->geometry == GEOMETRY_AXISYMMETRIC && !(s->x[0][i] > 0.0);
 }
@@ -196,6 +205,7 @@ static void make_nothing(const struct model *m, const struct locate *l, const st
   for (unsigned k = 0; k < 3; k++) {
     put(s->v[k], i, 0.0);
     put(s->force[k], i, 0.0);
+    put(s->length[k], i, m->cell);
   }
   for (unsigned k = 0; k < 6; k++)
     put(s->stress[k], i, 0.0);
@@ -207,6 +217,13 @@ static void make_nothing(const struct model *m, const struct locate *l, const st
   put(s->energy, i, 0.0);
 }
 
+/* Padding is a copy of the last point, which may be leaving. */
+static void pad(const struct model *m, const struct locate *l, const struct state *s, size_t i)
+{
+  if (!is_sound(m, l, s, i))
+    make_nothing(m, l, s, i);
+}
+
 static size_t taker_of_lost(const struct model *m, size_t body)
 {
   for (size_t t = 0; t < m->removal.takers; t++) {
@@ -215,6 +232,11 @@ static size_t taker_of_lost(const struct model *m, size_t body)
       return t;
   }
   return nobody;
+}
+
+bool removal_of_lost(const struct model *m, size_t body)
+{
+  return taker_of_lost(m, body) != nobody;
 }
 
 /* Who takes point i, apart from effects that mark points. */
@@ -237,8 +259,10 @@ gamut_status removal_take(struct model *m, const struct gamut_chunk *chunk)
   const struct locate l = locate_in(m, chunk->serial, (const double *const *)s.x, chunk->count);
   double *gone = r->gone + chunk->serial * r->takers * GONE_SUMS;
   for (size_t i = 0; i < chunk->count; i++) {
-    if (chunk->set->id[chunk->slot + i] < 0)
+    if (chunk->set->id[chunk->slot + i] < 0) {
+      pad(m, &l, &s, i);
       continue;
+    }
     size_t taker = mark != NULL && mark[i] > 0.0 ? (size_t)mark[i] - 1 : nobody;
     if (taker == nobody && s.mass[i] > 0.0)
       taker = taker_of(m, lost, &l, &s, i);
@@ -266,8 +290,9 @@ void removal_take_moved(struct model *m, const struct gamut_chunk *chunk)
   double *energy = m->host->stored(chunk->set, m->field.energy, 0);
   s.energy = energy != NULL ? energy + chunk->slot : NULL;
   for (size_t i = 0; i < chunk->count; i++) {
-    const bool real = chunk->set->id[chunk->slot + i] >= 0;
-    const size_t taker = real ? taker_of(m, lost, &l, &s, i) : nobody;
+    if (chunk->set->id[chunk->slot + i] < 0)
+      pad(m, &l, &s, i);
+    const size_t taker = s.mass[i] > 0.0 ? taker_of(m, lost, &l, &s, i) : nobody;
     if (taker == nobody)
       continue;
     add_gone(&s, i, m->body[body].density, gone + taker * GONE_SUMS);

@@ -62,6 +62,8 @@ gamut_status removal_room(struct model *);
 
 /* In a sweep, before a chunk is scattered: points that leave become massless. */
 gamut_status removal_take(struct model *, const struct gamut_chunk *);
+/* Whether lost points of a body leave, so that nobody need stop for them. */
+bool removal_of_lost(const struct model *, size_t body);
 /* Where points move in a sweep of their own, after that: those that are then nowhere go. */
 void removal_take_moved(struct model *, const struct gamut_chunk *);
 /* After a step: adds up what left and takes it out of the sets; says which points are lost. */
@@ -71,8 +73,9 @@ gamut_status removal_check(struct model *);
 
 /* Points that lie outside the tile or the domain: the step is finished, then the run stops. */
 void stray_note(struct model *, const struct gamut_set *, size_t slot, const char *what);
-void stray_outside_tile(struct model *, const struct gamut_set *, size_t slot,
-                        const struct locate *, const double *const x[3], const double *const v[3]);
+gamut_status stray_outside_tile(struct model *, const struct gamut_set *, size_t slot,
+                                const struct locate *, const double *const x[3],
+                                const double *const v[3]);
 void stray_outside_domain(struct model *, const struct gamut_set *, size_t slot, size_t count,
                           const double *const x[3], const double *mass);
 gamut_status stray_fail(struct model *);

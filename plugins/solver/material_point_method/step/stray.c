@@ -53,9 +53,11 @@ void stray_note(struct model *m, const struct gamut_set *set, size_t slot, const
   }
 }
 
-void stray_outside_tile(struct model *m, const struct gamut_set *set, size_t slot,
-                        const struct locate *l, const double *const x[3], const double *const v[3])
+gamut_status stray_outside_tile(struct model *m, const struct gamut_set *set, size_t slot,
+                                const struct locate *l, const double *const x[3],
+                                const double *const v[3])
 {
+  bool any = false;
   for (size_t i = 0; i < l->count; i++)
     for (unsigned k = 0; k < m->dimension && set->id[slot + i] >= 0; k++) {
       const double at = x[k][i] * l->inverse_cell - l->origin[k];
@@ -67,8 +69,11 @@ void stray_outside_tile(struct model *m, const struct gamut_set *set, size_t slo
                        "long or the run is unstable"
                      : "its position or velocity is not a number: the time step is too long "
                        "or the material failed");
+      any = true;
       break;
     }
+  return any ? GAMUT_OK
+             : gamut_fail(m->run, GAMUT_INTERNAL, "a point left its block, but none is outside");
 }
 
 void stray_outside_domain(struct model *m, const struct gamut_set *set, size_t slot, size_t count,

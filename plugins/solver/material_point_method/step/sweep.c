@@ -98,10 +98,8 @@ gamut_status renew_momentum(void *self, const struct gamut_chunk *chunk)
     components(chunk, m->field.position, 3, true, view.position);
     l = locate_in(m, chunk->serial, view.position, chunk->count);
     find_domains(m, chunk, &l);
-    if (!m->transfer.locate(w, &l, true)) {
-      stray_outside_tile(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
-      return GAMUT_OK;
-    }
+    if (!m->transfer.locate(w, &l, true))
+      return stray_outside_tile(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
   }
   m->transfer.scatter_momentum(w, &view, m->cell);
   return GAMUT_OK;
@@ -141,6 +139,8 @@ static void stretch_domains(struct model *m, const struct gamut_chunk *chunk)
     }
   }
   m->work[chunk->thread]->beyond |= beyond;
+  if (out != 0 && removal_of_lost(m, chunk->set->index))
+    return;
   for (size_t i = 0; out != 0 && i < chunk->count; i++)
     for (unsigned k = 0; k < m->dimension && chunk->set->id[chunk->slot + i] >= 0; k++)
       if (!(gamut_end(chunk, m->field.domain_length, k)[i] > 0.0))
@@ -205,10 +205,8 @@ gamut_status scatter_view(struct model *m, struct work *w, const struct gamut_se
   struct locate l = locate_in(m, serial, view->position, view->count);
   for (unsigned k = 0; k < m->dimension; k++)
     l.length[k] = view->length[k];
-  if (!m->transfer.locate(w, &l, true)) {
-    stray_outside_tile(m, set, slot, &l, view->position, view->velocity);
-    return GAMUT_OK;
-  }
+  if (!m->transfer.locate(w, &l, true))
+    return stray_outside_tile(m, set, slot, &l, view->position, view->velocity);
   m->transfer.scatter(w, view, m->cell);
   sums_motion(w, view, m->dimension, energy);
   if (view->force[0] != NULL)
