@@ -110,10 +110,6 @@ struct model {
   struct node_sums *node_sum; /* one a block of nodes */
   size_t node_capacity;
   struct node_sums nodes;   /* of the last update */
-  uint32_t *scratch_source; /* for the sort */
-  int32_t *scratch_block, *scratch_count;
-  uint16_t *scratch_cell;
-  size_t scratch_capacity, scratch_blocks;
 
   bool collected;       /* the grid holds this step's sums already */
   double moved;         /* farthest that a point can have gone since the sort, cells */

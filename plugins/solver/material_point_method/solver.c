@@ -62,10 +62,6 @@ static void destroy(void *self)
   gamut_release(run, m->block_sum);
   gamut_release(run, m->block_omega);
   gamut_release(run, m->node_sum);
-  gamut_release(run, m->scratch_source);
-  gamut_release(run, m->scratch_block);
-  gamut_release(run, m->scratch_count);
-  gamut_release(run, m->scratch_cell);
   gamut_release(run, m);
 }
 

@@ -1,6 +1,7 @@
 /* The boxes of nodal sums that blocks of points leave, and their way to and from the grid. Boxes
  * are as large as what they hold; they lie in one pool, in the order in which threads come to leave
  * them, which no sum depends on. */
+#include <assert.h>
 #include <string.h>
 
 #include "grid/grid.h"
@@ -43,7 +44,24 @@ gamut_status boxes_create(struct grid *g)
   size_t nodes = 1;
   for (unsigned k = 0; k < g->dimension; k++)
     nodes *= (size_t)(g->side + g->nodes - 1);
-  return new_pool(g, g->sources * nodes + 1);
+  const size_t lines = g->sources * nodes + 1;
+  return lines > g->box_capacity ? new_pool(g, lines) : GAMUT_OK;
+}
+
+void *grid_lend(struct grid *g, size_t bytes, size_t kept)
+{
+  const size_t lines = bytes / (LINE * sizeof *g->box) + 1;
+  assert(g->box_used == 0 && g->spill == NULL);
+  if (lines <= g->box_capacity)
+    return g->box;
+  double *before = g->box;
+  if (kept == 0)
+    return new_pool(g, lines) == GAMUT_OK ? g->box : NULL;
+  g->box = NULL;
+  if (new_pool(g, lines) == GAMUT_OK)
+    memcpy(g->box, before, kept);
+  gamut_release(g->run, before);
+  return g->box;
 }
 
 gamut_status grid_forget_boxes(struct grid *g)
@@ -53,7 +71,7 @@ gamut_status grid_forget_boxes(struct grid *g)
   g->box_used = 0;
   if (used <= g->box_capacity)
     return GAMUT_OK;
-  return new_pool(g, used + used / 8);
+  return new_pool(g, used + used / 16);
 }
 
 /* Room for a box of so many nodes. */

@@ -131,6 +131,9 @@ void grid_collect(const struct grid *, const struct node_block *, double *lines)
 /* After all blocks of nodes have collected: the boxes are done with. */
 gamut_status grid_forget_boxes(struct grid *);
 gamut_status boxes_create(struct grid *);
+/* Memory for other things while there are no boxes; its first `kept` bytes are those it held when
+ * it was last lent. Null where there is none. */
+void *grid_lend(struct grid *, size_t bytes, size_t kept);
 void boxes_destroy(struct grid *);
 
 #endif

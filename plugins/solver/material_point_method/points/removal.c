@@ -332,17 +332,19 @@ static size_t keep_block(struct model *m, size_t body, size_t serial)
 /* Takes the massless points out of a set; blocks that lose all of theirs call for a sort. */
 static void drop_points(struct model *m, struct gamut_set *set, const size_t *block, size_t blocks)
 {
+  enum { MOST = 512 }; /* at once */
   const double *mass = m->host->stored(set, m->field.mass, 0);
-  uint32_t *slot = m->scratch_source;
-  size_t count = 0;
-  for (size_t b = 0; b < blocks; b++)
-    for (size_t i = set->first[block[b]]; i < set->first[block[b] + 1]; i++)
+  uint32_t slot[MOST];
+  for (size_t b = 0, count; b < blocks; b += count < MOST) {
+    count = 0;
+    for (size_t i = set->first[block[b]]; i < set->first[block[b] + 1] && count < MOST; i++)
       if (set->id[i] >= 0 && mass[i] == 0.0)
         slot[count++] = (uint32_t)i;
-  m->host->drop(m->run, set, slot, count);
+    m->host->drop(m->run, set, slot, count);
+    m->removal.since_sort += count;
+  }
   for (size_t b = 0; b < blocks; b++)
     m->removal.sort_due |= set->id[set->first[block[b]]] < 0;
-  m->removal.since_sort += count;
   m->removal.sort_due |= 8 * m->removal.since_sort > set->slots;
 }
 
