@@ -6,7 +6,7 @@
 
 #include "step/step.h"
 
-int thread_number(void)
+static int thread_number(void)
 {
 #ifdef _OPENMP
   return omp_get_thread_num();
@@ -91,7 +91,7 @@ static gamut_status first_block(struct model *m, const struct body *body, size_t
   return leave_sums(m, w, serial);
 }
 
-gamut_status step_first_scatter(struct model *m)
+gamut_status each_block(struct model *m, block_work *run)
 {
   size_t serial = 0;
   for (size_t b = 0; b < m->bodies; b++) {
@@ -100,8 +100,7 @@ gamut_status step_first_scatter(struct model *m)
 #pragma omp parallel for schedule(dynamic)                                                         \
     num_threads(m->threads) if (m->grid.sources >= FEW_BLOCKS)
     for (size_t k = 0; k < blocks; k++) {
-      const gamut_status status =
-          first_block(m, &m->body[b], k, serial + k, m->work[thread_number()]);
+      const gamut_status status = run(m, &m->body[b], k, serial + k, m->work[thread_number()]);
       if (status != GAMUT_OK) {
 #pragma omp atomic write
         worst = status;
@@ -112,4 +111,9 @@ gamut_status step_first_scatter(struct model *m)
     serial += blocks;
   }
   return GAMUT_OK;
+}
+
+gamut_status step_first_scatter(struct model *m)
+{
+  return each_block(m, first_block);
 }

@@ -96,25 +96,8 @@ static gamut_status pass_block(struct model *m, const struct body *body, size_t 
 
 static gamut_status pass(struct model *m)
 {
-  size_t serial = 0;
-  for (size_t b = 0; b < m->bodies; b++) {
-    const size_t blocks = m->body[b].set->blocks;
-    gamut_status worst = GAMUT_OK;
-#pragma omp parallel for schedule(dynamic)                                                         \
-    num_threads(m->threads) if (m->grid.sources >= FEW_BLOCKS)
-    for (size_t k = 0; k < blocks; k++) {
-      const gamut_status status =
-          pass_block(m, &m->body[b], k, serial + k, m->work[thread_number()]);
-      if (status != GAMUT_OK) {
-#pragma omp atomic write
-        worst = status;
-      }
-    }
-    if (worst != GAMUT_OK)
-      return worst;
-    serial += blocks;
-  }
-  return step_project(m, false);
+  const gamut_status status = each_block(m, pass_block);
+  return status != GAMUT_OK ? status : step_project(m, false);
 }
 
 static void add_share(struct model *m, double share)

@@ -8,7 +8,11 @@
 enum { FEW_BLOCKS = 64 };
 
 /* block.c */
-int thread_number(void);
+/* Work on a block of points, number `block` of its body and `serial` of all. */
+typedef gamut_status block_work(struct model *, const struct body *, size_t block, size_t serial,
+                                struct work *);
+/* Does it for all blocks, by all threads, outside the sweeps of the core. */
+gamut_status each_block(struct model *, block_work *);
 /* The box of a block of points, from the tile of its sums. */
 gamut_status leave_box(struct model *, struct work *, size_t serial);
 gamut_status leave_sums(struct model *, struct work *, size_t serial);
