@@ -23,13 +23,21 @@ static gamut_status room_for_lines(struct model *m)
   return GAMUT_OK;
 }
 
+/* A block that the filter's boxes are the first to reach has no line of its own: they reach into it
+ * with a corner that no point touches. It keeps the line, clear. */
 static void swap_lines(struct model *m)
 {
   for (size_t b = 0; b < m->grid.blocks; b++) {
     struct node_block *block = &m->grid.block[b];
     double *line = block->line;
-    block->line = line != NULL ? block->filter : NULL;
-    block->filter = line;
+    if (line == NULL)
+      block->filter = NULL;
+    else if (block->filter == NULL)
+      memset(line, 0, m->grid.block_nodes * LINE * sizeof *line);
+    else {
+      block->line = block->filter;
+      block->filter = line;
+    }
   }
 }
 
@@ -116,7 +124,7 @@ static void finish(struct model *m)
 {
   for (size_t b = 0; b < m->grid.blocks; b++) {
     const struct node_block *block = &m->grid.block[b];
-    for (size_t i = 0; i < m->grid.block_nodes && block->line != NULL; i++) {
+    for (size_t i = 0; i < m->grid.block_nodes && block->filter != NULL; i++) {
       double *line = block->line + i * LINE;
       const double *u = block->filter + i * LINE;
       const struct touched *t = touched_of(m, block, i);
