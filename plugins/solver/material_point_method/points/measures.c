@@ -6,6 +6,9 @@
 
 #include "model.h"
 
+/* Below so many slots threads cost more than they give. */
+enum { FEW_SLOTS = 1 << 14 };
+
 static int axis_of(const struct gamut_values *arguments)
 {
   const char *name = gamut_text(arguments, "axis");
@@ -56,29 +59,55 @@ static bool may_reach(const double *x, const double *ratio, double start, double
   return beyond != 0;
 }
 
-/* From the lowest to the highest edge along an axis, of the points with lower <= x[along] <= upper.
- */
+/* Edges along an axis, of the points with lower <= x[along] <= upper. */
+struct edges {
+  int axis, along;
+  double lower, upper;
+  bool any;
+  double low, high;
+};
+
+static void edges_of(const struct model *m, const struct cloud *c, size_t slot, size_t end,
+                     struct edges *e)
+{
+  const double start = 0.5 * c->body->spacing[e->axis];
+  for (size_t i = slot; i < end; i++) {
+    while (e->any && i % GAMUT_LANES == 0 && i < end &&
+           !may_reach(c->x[e->axis] + i, c->ratio + i, start, e->low, e->high))
+      i += GAMUT_LANES;
+    if (i >= end)
+      break;
+    if (c->set->id[i] < 0 ||
+        (e->along >= 0 && !(c->x[e->along][i] >= e->lower && c->x[e->along][i] <= e->upper)))
+      continue;
+    const double ratio = c->ratio[i], most = start * (ratio > 1.0 ? ratio : 1.0);
+    const double x = c->x[e->axis][i];
+    if (e->any && x - most >= e->low && x + most <= e->high)
+      continue;
+    const double half = start * growth(m, ratio);
+    e->low = e->any && e->low < x - half ? e->low : x - half;
+    e->high = e->any && e->high > x + half ? e->high : x + half;
+    e->any = true;
+  }
+}
+
+/* From the lowest to the highest edge; by ranges of slots, of which no bit depends. */
 static bool span(const struct model *m, const struct cloud *c, int axis, int along, double lower,
                  double upper, double *low, double *high)
 {
+  const size_t slots = c->set->slots, lanes = slots / GAMUT_LANES;
+  const size_t ranges = slots >= FEW_SLOTS ? (size_t)m->threads : 1;
   bool any = false;
-  const double start = 0.5 * c->body->spacing[axis];
-  for (size_t i = 0; i < c->set->slots; i++) {
-    while (any && i % GAMUT_LANES == 0 && i < c->set->slots &&
-           !may_reach(c->x[axis] + i, c->ratio + i, start, *low, *high))
-      i += GAMUT_LANES;
-    if (i == c->set->slots)
-      break;
-    if (c->set->id[i] < 0 || (along >= 0 && !(c->x[along][i] >= lower && c->x[along][i] <= upper)))
-      continue;
-    const double ratio = c->ratio[i], most = start * (ratio > 1.0 ? ratio : 1.0);
-    const double x = c->x[axis][i];
-    if (any && x - most >= *low && x + most <= *high)
-      continue;
-    const double half = start * growth(m, ratio);
-    *low = any && *low < x - half ? *low : x - half;
-    *high = any && *high > x + half ? *high : x + half;
-    any = true;
+#pragma omp parallel for schedule(static, 1) num_threads((int)ranges)
+  for (size_t r = 0; r < ranges; r++) {
+    struct edges e = {.axis = axis, .along = along, .lower = lower, .upper = upper};
+    edges_of(m, c, lanes * r / ranges * GAMUT_LANES, lanes * (r + 1) / ranges * GAMUT_LANES, &e);
+#pragma omp critical(material_point_method_edges)
+    if (e.any) {
+      *low = any && *low < e.low ? *low : e.low;
+      *high = any && *high > e.high ? *high : e.high;
+      any = true;
+    }
   }
   return any;
 }
