@@ -41,8 +41,8 @@ def column(start, _):
 
 
 def test_column():
-    errors = [schemes.displacement_error("self_weight", "column", column, 1, {"solver.cell": f"{c} m"})
-              for c in (2, 1)]
+    errors = [schemes.displacement_error("self_weight", "column", column, 1,
+                                         {"solver.cell": f"{c} m"}) for c in (2, 1)]
     scenes.note("column: " + ", ".join(f"{e:.3e}" for e in errors))
     scenes.below("column: error of displacement", errors[-1], 0.01)
 
