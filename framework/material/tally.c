@@ -20,18 +20,17 @@ void tally_block(struct tally *tally, const int64_t *status, const struct gamut_
   const int64_t *id = chunk->set->id + chunk->slot;
   double *removal = spared(tally, chunk);
   for (size_t i = 0; i < chunk->count; i++) {
+    /* padding is marked with the point that it copies: its state is no better */
+    if (removal && status[i] >> 8 == GAMUT_STOP && !(removal[i] > 0.0))
+      removal[i] = tally->spare->mark[chunk->set->index];
     if (!status[i] || id[i] < 0)
       continue;
     size_t message = (size_t)(status[i] & 255);
     if (message < TALLY_MESSAGES)
       tally->count[message]++;
-    if (status[i] >> 8 != GAMUT_STOP)
+    if (status[i] >> 8 != GAMUT_STOP || removal)
       continue;
     size_t set = chunk->set->index;
-    if (removal) {
-      removal[i] = removal[i] > 0.0 ? removal[i] : tally->spare->mark[set];
-      continue;
-    }
     if (!tally->stopped || set < tally->set || (set == tally->set && id[i] < tally->id)) {
       tally->stopped = true;
       tally->set = set;
