@@ -26,6 +26,10 @@ static void catch_signals(void)
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, NULL);
   sigaction(SIGTERM, &action, NULL);
+  /* The terminal was closed; nohup has it ignored, and so it stays. */
+  struct sigaction now;
+  if (sigaction(SIGHUP, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, NULL);
   /* A run of hours does not end because somebody closed a pager. */
   signal(SIGPIPE, SIG_IGN);
 }

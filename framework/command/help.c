@@ -32,8 +32,8 @@ static const struct details {
      "A scene with uncertainty.estimator is a study: its runs go side by side on the threads,\n"
      "each finished one is kept in study.log, and study.csv has a row a run. Ctrl-C or a TERM\n"
      "signal stops it with exit code 75; --resume goes on.\n"
-     "When the numbers fail the last state is written and the exit code is 5. On Ctrl-C or a\n"
-     "TERM signal the step is finished, the results so far (\"status\": \"interrupted\") and a\n"
+     "When the numbers fail the last state is written and the exit code is 5. On Ctrl-C, TERM or\n"
+     "HUP the step is finished, the results so far (\"status\": \"interrupted\") and a\n"
      "checkpoint are written, and the exit code is 75. outputs.checkpoint in the scene leaves one\n"
      "every so often: {every: 10 us} of the run, or 10 min by the clock.\n"},
     {"check", "Prints every mistake with its place. Opens no plugin and writes nothing.\n"

@@ -13,7 +13,9 @@ static const char descriptor[] =
     "  bulk_modulus: {symbol: K, unit: Pa, physical: \"(0, inf)\", random: true,\n"
     "                 doc: pressure over compression}\n"
     "inputs: [compression, reference_density]\n"
-    "outputs: [pressure, pressure_slope_compression, sound_speed]\n";
+    "outputs: [pressure, pressure_slope_compression, sound_speed]\n"
+    "messages:\n"
+    "  vacuum: {severity: stop, text: \"density is zero or negative\"}\n";
 
 static const char source[] =
     "#include \"@NAME@.gamut.h\"\n"
@@ -24,6 +26,7 @@ static const char source[] =
     "    b->pressure[i] = b->bulk_modulus[i] * b->compression[i];\n"
     "    b->pressure_slope_compression[i] = b->bulk_modulus[i];\n"
     "    b->sound_speed[i] = sqrt(b->bulk_modulus[i] / b->reference_density[i]);\n"
+    "    GAMUT_FLAG(b, i, b->compression[i] <= -1, @UPPER@_VACUUM);\n"
     "  }\n"
     "}\n"
     "\n"

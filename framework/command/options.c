@@ -32,6 +32,12 @@ const char *usage_nearest(const char *command)
   return nearest(command, name, USAGES);
 }
 
+void usage_note(struct command *command)
+{
+  const char *arguments = usage_arguments(command->argv[0]);
+  trace_note(command->trace, "usage: gamut %s %s", command->argv[0], arguments ? arguments : "");
+}
+
 gamut_status usage_fail(struct command *command, const char *format, ...)
 {
   char text[512];
@@ -39,9 +45,8 @@ gamut_status usage_fail(struct command *command, const char *format, ...)
   va_start(list, format);
   vsnprintf(text, sizeof text, format, list);
   va_end(list);
-  const char *arguments = usage_arguments(command->argv[0]);
   trace_fail(command->trace, GAMUT_USAGE, "%s", text);
-  trace_note(command->trace, "usage: gamut %s %s", command->argv[0], arguments ? arguments : "");
+  usage_note(command);
   return GAMUT_USAGE;
 }
 

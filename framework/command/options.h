@@ -34,6 +34,8 @@ struct option {
 gamut_status options_read(struct command *, const struct option *, size_t options,
                           const char **operand, size_t least, size_t most, size_t *operands);
 
+/* Notes the usage line of the command. */
+void usage_note(struct command *);
 /* Records GAMUT_USAGE in words, then the usage line of the command. */
 gamut_status usage_fail(struct command *, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

@@ -12,34 +12,29 @@ static struct bare_run *bare(struct gamut_run *run)
 
 static gamut_status bare_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
 {
-  char text[1024];
   va_list list;
   va_start(list, format);
-  vsnprintf(text, sizeof text, format, list);
+  status = host_words_fail(bare(run)->trace, status, NULL, format, list);
   va_end(list);
-  return trace_fail(bare(run)->trace, status, "%s", text);
+  return status;
 }
 
 static gamut_status bare_fail_at(struct gamut_run *run, const struct gamut_values *values,
                                  const char *path, const char *expected, const char *format, ...)
 {
-  char text[1024];
   va_list list;
-  (void)values;
   va_start(list, format);
-  vsnprintf(text, sizeof text, format, list);
+  gamut_status status = host_words_fail_at(bare(run)->trace, values, path, expected, format, list);
   va_end(list);
-  return trace_fail_at(bare(run)->trace, GAMUT_SCENE, NULL, path, expected, "%s", text);
+  return status;
 }
 
-static void bare_warn(struct gamut_run *run, const char *format, ...)
+static void bare_note(struct gamut_run *run, const char *format, ...)
 {
-  char text[1024];
   va_list list;
   va_start(list, format);
-  vsnprintf(text, sizeof text, format, list);
+  host_words_note(bare(run)->trace, format, list);
   va_end(list);
-  trace_note(bare(run)->trace, "%s", text);
 }
 
 static void *bare_allocate(struct gamut_run *run, const char *label, size_t bytes)
@@ -73,28 +68,14 @@ static const struct gamut_host bare_host = {
     .size = sizeof(struct gamut_host),
     .fail = bare_fail,
     .fail_at = bare_fail_at,
-    .warn = bare_warn,
-    .given = host_given,
-    .real = host_real,
-    .integer = host_integer,
-    .boolean = host_boolean,
-    .text = host_text,
-    .vector = host_vector,
-    .table = host_table,
+    .warn = bare_note,
+    HOST_OF_VALUES,
     .allocate = bare_allocate,
     .release = bare_release,
     .threads = bare_threads,
     .domain = bare_domain,
-    .note = bare_warn,
+    .note = bare_note,
 };
-
-static void give_host(struct values *values)
-{
-  values->host = &bare_host;
-  for (size_t i = 0; i < values->count; i++)
-    if (values->value[i].group)
-      give_host(values->value[i].group);
-}
 
 bool bare_run_new(struct bare_run *run, struct proof *proof)
 {
@@ -104,7 +85,7 @@ bool bare_run_new(struct bare_run *run, struct proof *proof)
   TRY(specimen_values(&run->specimen, proof->descriptor, &proof->base, "base", proof->units,
                       run->trace));
   TRY(registry_open(proof->registry, proof->descriptor, run->trace, &plugin));
-  give_host(run->specimen.values);
+  host_of_values(run->specimen.values, &bare_host);
   run->ops = plugin->ops;
 done:
   if (status != GAMUT_OK) {

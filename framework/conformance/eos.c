@@ -1,4 +1,4 @@
-/* eos: pressure and its slopes, a real sound speed. */
+/* eos: pressure and its slopes, a real sound speed, no pressure of nothing. */
 #include <math.h>
 
 #include "conformance/suite.h"
@@ -27,6 +27,27 @@ static void prove_sound_speed(struct proof *proof, struct block *block, kernel_f
                "points without a real sound speed, of %zu that the law takes as fine", fine);
 }
 
+/* There is no matter at a compression of -1 or below: no number there is right. */
+static void prove_vacuum(struct proof *proof, struct block *block, kernel_function function)
+{
+  static const double compression[] = {-1.0, -1.0 - 1e-15, -1.5, -1e3};
+  const size_t kinds = sizeof compression / sizeof compression[0];
+  size_t let_go = 0, slot = slot_named(proof, SLOT_INPUT, "compression");
+  check_begin(&proof->checks, "vacuum");
+  if (slot == SIZE_MAX)
+    return;
+  block_draw(block, 1);
+  for (size_t i = 0; i < BLOCK_ROOM; i++)
+    block->array[slot][i] = compression[i % kinds];
+  block_mark(block);
+  bench_call(block->bench, function, BLOCK_POINTS);
+  for (size_t i = 0; i < BLOCK_POINTS; i++)
+    let_go += status_severity(bench_status(block->bench)[i]) < GAMUT_STOP;
+  check_figure(&proof->checks, (double)let_go, 0,
+               "points at a compression of -1 or below, of %d, that the law does not stop",
+               (int)BLOCK_POINTS);
+}
+
 void prove_eos(struct proof *proof)
 {
   struct suite suite;
@@ -35,6 +56,7 @@ void prove_eos(struct proof *proof)
     suite_work(&suite, 0, "pressure");
     suite_variants(&suite);
     prove_sound_speed(proof, &suite.block, function);
+    prove_vacuum(proof, &suite.block, function);
     prove_slopes(proof, &suite.block, function);
     suite_derivatives(&suite, 1);
   }

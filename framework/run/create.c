@@ -6,7 +6,7 @@
 #endif
 
 #include "field/vocabulary.h"
-#include "run/inside.h"
+#include "run/host.h"
 
 enum {
   CHUNK_BY_DEFAULT = 128,
@@ -14,33 +14,24 @@ enum {
   THREADS_MAX = 1024 /* the OpenMP library keeps a word per thread on the stack */
 };
 
-static void attach_values(struct gamut_values *values)
-{
-  if (!values)
-    return;
-  values->host = &run_host;
-  for (size_t i = 0; i < values->count; i++)
-    attach_values(values->value[i].group);
-}
-
 /* Values and bodies carry the table, so that a plugin needs nothing else to ask them. */
 static void attach_host(struct scene *scene)
 {
-  attach_values(scene->solver.values);
+  host_of_values(scene->solver.values, &run_host);
   for (size_t i = 0; i < scene->bodies; i++) {
     scene->body[i].host = &run_host;
-    attach_values(scene->body[i].solver_values);
+    host_of_values(scene->body[i].solver_values, &run_host);
   }
   for (size_t i = 0; i < scene->effects; i++)
-    attach_values(scene->effect[i].instance.values);
+    host_of_values(scene->effect[i].instance.values, &run_host);
   for (size_t i = 0; i < scene->materials; i++) {
-    attach_values(scene->material[i].eos.values);
-    attach_values(scene->material[i].strength.values);
-    attach_values(scene->material[i].elasticity.values);
-    attach_values(scene->material[i].extra);
+    host_of_values(scene->material[i].eos.values, &run_host);
+    host_of_values(scene->material[i].strength.values, &run_host);
+    host_of_values(scene->material[i].elasticity.values, &run_host);
+    host_of_values(scene->material[i].extra, &run_host);
   }
   for (size_t i = 0; i < scene->quantities; i++)
-    attach_values(scene->quantity[i].arguments);
+    host_of_values(scene->quantity[i].arguments, &run_host);
 }
 
 static size_t chunk_of(const struct scene *scene)

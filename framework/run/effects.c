@@ -145,4 +145,5 @@ void effects_free(struct gamut_run *run)
     free(effect->job);
   }
   free(run->effect);
+  free(run->plane);
 }

@@ -1,5 +1,6 @@
 #include <math.h>
 #include <stdarg.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "field/vocabulary.h"
@@ -12,48 +13,58 @@ static const char *owner_of(const struct gamut_run *run)
 
 static gamut_status host_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
 {
-  char text[1024];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return trace_fail(run->trace, status, "%s", text);
+  const struct tree *node = run->creating    ? run->creating->effect->instance.node
+                            : run->measuring ? run->measuring->node
+                                             : NULL;
+  va_list list;
+  va_start(list, format);
+  status = host_words_fail(run->trace, status, node, format, list);
+  va_end(list);
+  return status;
+}
+
+static gamut_status host_fail_plane(struct gamut_run *run, const struct gamut_reaction *reaction,
+                                    gamut_status status, const char *format, ...)
+{
+  char named[1024];
+  const struct effect *effect = NULL;
+  va_list list;
+  for (size_t i = 0; i < run->planes; i++)
+    if (run->plane[i].reaction == reaction)
+      effect = run->plane[i].effect;
+  snprintf(named, sizeof named, "effect %s: %s", effect ? effect->instance.name : "unknown",
+           format);
+  va_start(list, format);
+  status = host_words_fail(run->trace, status, effect ? effect->instance.node : NULL,
+                           effect ? named : format, list);
+  va_end(list);
+  return status;
 }
 
 static gamut_status host_fail_at(struct gamut_run *run, const struct gamut_values *values,
                                  const char *path, const char *expected, const char *format, ...)
 {
-  char text[1024], where[512];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  const struct value *value = values_find(values, path);
-  const struct tree *node = value && value->node ? value->node : values->node;
-  snprintf(where, sizeof where, "%s%s%s", values->path ? values->path : "",
-           values->path && *values->path ? "." : "", path);
-  return trace_fail_at(run->trace, GAMUT_SCENE, node ? &node->place : NULL, where, expected, "%s",
-                       text);
+  va_list list;
+  va_start(list, format);
+  gamut_status status = host_words_fail_at(run->trace, values, path, expected, format, list);
+  va_end(list);
+  return status;
 }
 
 static void host_warn(struct gamut_run *run, const char *format, ...)
 {
-  char text[1024];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  trace_warn_at(run->trace, NULL, NULL, NULL, "%s", text);
+  va_list list;
+  va_start(list, format);
+  host_words_warn(run->trace, format, list);
+  va_end(list);
 }
 
 static void host_note(struct gamut_run *run, const char *format, ...)
 {
-  char text[1024];
-  va_list arguments;
-  va_start(arguments, format);
-  vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  trace_note(run->trace, "%s", text);
+  va_list list;
+  va_start(list, format);
+  host_words_note(run->trace, format, list);
+  va_end(list);
 }
 
 static size_t host_bodies(const struct gamut_run *run)
@@ -115,14 +126,13 @@ static double host_body_density(const struct gamut_run *run, const struct gamut_
   return run->scene->material[body->material].density;
 }
 
-static gamut_status host_points(struct gamut_run *run, const struct gamut_body *body,
-                                size_t points, struct gamut_set **set)
+static gamut_status host_points(struct gamut_run *run, const struct gamut_body *body, size_t points,
+                                struct gamut_set **set)
 {
   if (run->set[body->index])
     return trace_fail(run->trace, GAMUT_PLUGIN, "the solver makes points of body '%s' twice",
                       body->name);
-  struct point_set *made =
-      set_new(run->arena, body->name, body->index, body->material, points);
+  struct point_set *made = set_new(run->arena, body->name, body->index, body->material, points);
   if (!made)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   run->set[body->index] = made;
@@ -224,7 +234,18 @@ static gamut_status host_plane(struct gamut_run *run, const struct gamut_plane *
   if (!run->solver->plane)
     return trace_fail(run->trace, GAMUT_SCENE, "%s needs planes, which %s does not offer",
                       owner_of(run), run->scene->solver.descriptor->id);
-  return run->solver->plane(run->solver_self, plane, reaction);
+  const struct gamut_reaction *made = NULL;
+  gamut_status status = run->solver->plane(run->solver_self, plane, &made);
+  if (reaction)
+    *reaction = made;
+  if (status != GAMUT_OK || !run->creating)
+    return status;
+  struct plane_owner *more = realloc(run->plane, (run->planes + 1) * sizeof *more);
+  if (!more)
+    return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  run->plane = more;
+  run->plane[run->planes++] = (struct plane_owner){made, run->creating->effect};
+  return GAMUT_OK;
 }
 
 static gamut_status host_ledger(struct gamut_run *run, const char *account, const char *name,
@@ -262,13 +283,7 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .fail = host_fail,
                                     .fail_at = host_fail_at,
                                     .warn = host_warn,
-                                    .given = host_given,
-                                    .real = host_real,
-                                    .integer = host_integer,
-                                    .boolean = host_boolean,
-                                    .text = host_text,
-                                    .vector = host_vector,
-                                    .table = host_table,
+                                    HOST_OF_VALUES,
                                     .bodies = host_bodies,
                                     .body = host_body,
                                     .body_name = host_body_name,
@@ -310,4 +325,5 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .formula_value = host_formula_value,
                                     .formula_uses = host_formula_uses,
                                     .removal = host_removal,
-                                    .drop = host_drop};
+                                    .drop = host_drop,
+                                    .fail_plane = host_fail_plane};

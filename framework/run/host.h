@@ -2,7 +2,24 @@
 #ifndef GAMUT_RUN_HOST_H
 #define GAMUT_RUN_HOST_H
 
+#include <stdarg.h>
+
 #include "run/inside.h"
+
+/* Values: the same for every host. */
+#define HOST_OF_VALUES                                                                             \
+  .given = host_given, .real = host_real, .integer = host_integer, .boolean = host_boolean,        \
+  .text = host_text, .vector = host_vector, .table = host_table
+/* Gives values and the groups below them their host; accepts null. */
+void host_of_values(struct gamut_values *, const struct gamut_host *);
+
+/* host_words.c: GAMUT_SCENE at the node, where there is one; at a value; and what is no fault. */
+gamut_status host_words_fail(struct trace *, gamut_status, const struct tree *, const char *format,
+                             va_list);
+gamut_status host_words_fail_at(struct trace *, const struct gamut_values *, const char *path,
+                                const char *expected, const char *format, va_list);
+void host_words_warn(struct trace *, const char *format, va_list);
+void host_words_note(struct trace *, const char *format, va_list);
 
 bool host_given(const struct gamut_values *, const char *path);
 double host_real(const struct gamut_values *, const char *path);

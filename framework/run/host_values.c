@@ -16,6 +16,15 @@ static const struct value *demand(const struct gamut_values *values, const char 
   exit(GAMUT_PLUGIN);
 }
 
+void host_of_values(struct gamut_values *values, const struct gamut_host *host)
+{
+  if (!values)
+    return;
+  values->host = host;
+  for (size_t i = 0; i < values->count; i++)
+    host_of_values(values->value[i].group, host);
+}
+
 bool host_given(const struct gamut_values *values, const char *path)
 {
   const struct value *value = values_find(values, path);

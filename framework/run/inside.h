@@ -29,6 +29,12 @@ struct running_effect {
   char label[120]; /* "effect heat" */
 };
 
+/* A plane and the effect that asked for it. */
+struct plane_owner {
+  const struct gamut_reaction *reaction;
+  const struct effect *effect;
+};
+
 /* A task that updates materials: the core's own, or a solver's that iterates on it. */
 struct material_job {
   struct gamut_run *run;
@@ -86,6 +92,8 @@ struct gamut_run {
   struct running_effect *effect;
   size_t effects;
   struct running_effect *creating;  /* the effect whose create runs, for messages */
+  struct plane_owner *plane;
+  size_t planes;
   struct material_job **job;
   size_t jobs;
   struct gamut_law *law;            /* laws of the solver's own, a list */

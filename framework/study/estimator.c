@@ -14,37 +14,29 @@ static struct trace *trace_of(struct gamut_run *run)
 
 static gamut_status study_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
 {
-  char text[1024];
   va_list list;
   va_start(list, format);
-  vsnprintf(text, sizeof text, format, list);
+  status = host_words_fail(trace_of(run), status, NULL, format, list);
   va_end(list);
-  return trace_fail(trace_of(run), status, "%s", text);
+  return status;
 }
 
 static gamut_status study_fail_at(struct gamut_run *run, const struct gamut_values *values,
                                   const char *path, const char *expected, const char *format, ...)
 {
-  char text[1024], where[512];
   va_list list;
   va_start(list, format);
-  vsnprintf(text, sizeof text, format, list);
+  gamut_status status = host_words_fail_at(trace_of(run), values, path, expected, format, list);
   va_end(list);
-  const struct value *value = values_find(values, path);
-  const struct tree *node = value && value->node ? value->node : values->node;
-  snprintf(where, sizeof where, "%s.%s", values->path, path);
-  return trace_fail_at(trace_of(run), GAMUT_SCENE, node ? &node->place : NULL, where, expected,
-                       "%s", text);
+  return status;
 }
 
 static void study_warn(struct gamut_run *run, const char *format, ...)
 {
-  char text[1024];
   va_list list;
   va_start(list, format);
-  vsnprintf(text, sizeof text, format, list);
+  host_words_warn(trace_of(run), format, list);
   va_end(list);
-  trace_warn_at(trace_of(run), NULL, NULL, NULL, "%s", text);
 }
 
 static const struct gamut_host study_host = {
@@ -52,22 +44,8 @@ static const struct gamut_host study_host = {
     .fail = study_fail,
     .fail_at = study_fail_at,
     .warn = study_warn,
-    .given = host_given,
-    .real = host_real,
-    .integer = host_integer,
-    .boolean = host_boolean,
-    .text = host_text,
-    .vector = host_vector,
-    .table = host_table,
+    HOST_OF_VALUES,
 };
-
-static void give_host(struct values *values)
-{
-  values->host = &study_host;
-  for (size_t i = 0; i < values->count; i++)
-    if (values->value[i].group)
-      give_host(values->value[i].group);
-}
 
 /* Fixed by the scene alone, so that batches are the same whatever the machine. */
 static size_t batch_rows(const struct study *study)
@@ -102,7 +80,7 @@ gamut_status estimator_new(struct study *study)
   study->moments =
       (struct gamut_moments){moment, moment + values, moment + 2 * values, moment + 3 * values};
   study->host = (struct estimator_host){.head = {&study_host}, .trace = study->trace};
-  give_host(instance->values);
+  host_of_values(instance->values, &study_host);
   const struct gamut_study_shape shape = {
       .parameters = study->parameters,
       .quantities = values,

@@ -302,6 +302,25 @@ static gamut_status write_all(struct study *study, const char *folder, gamut_sta
   return status != GAMUT_OK ? status : written;
 }
 
+/* Many runs of one scene that are all the same are hardly what was meant. */
+static void warn_of_sameness(const struct study *study)
+{
+  size_t same = 0, other = 0;
+  for (size_t i = 1; i < study->runs; i++) {
+    const struct outcome *one = &study->outcome[i - 1], *next = &study->outcome[i];
+    if (one->level != next->level || one->reason || next->reason)
+      continue;
+    bool alike = memcmp(one->value, next->value, study->values * sizeof *one->value) == 0;
+    same += alike;
+    other += !alike;
+  }
+  if (same > 0 && other == 0 && study->values > 0)
+    trace_warn_at(study->trace, NULL, "uncertainty", "{mean:, cv:} in place of a number",
+                  "%zu runs gave the same values to the last bit: %s", study->runs,
+                  study->parameters ? "no quantity depends on what is random"
+                                    : "no parameter of the scene is random");
+}
+
 gamut_status study_run(struct study *study, const char *folder, struct trace *trace)
 {
   gamut_status status;
@@ -310,6 +329,7 @@ gamut_status study_run(struct study *study, const char *folder, struct trace *tr
   TRY(prepare(study, folder));
   status = run_batches(study);
   study->wall = now() - begun;
+  warn_of_sameness(study);
   if (study->warned)
     trace_warn_at(trace, NULL, NULL, NULL, "%zu of %zu runs had warnings; one of them: %s",
                   study->warned, study->runs, study->warning ? study->warning : "");

@@ -27,7 +27,8 @@ def interrupted(out, number, until):
         words += ["--set", setting]
     path = os.path.join(out, until)
     began = os.stat(path).st_mtime_ns if os.path.exists(path) else 0
-    child = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    child = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                             preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
     end = time.time() + 60
     while child.poll() is None and time.time() < end:
         if os.path.exists(path) and os.stat(path).st_mtime_ns > began:
@@ -43,11 +44,12 @@ def stopped(folder, whole):
     code, said = interrupted(out, signal.SIGTERM, "checkpoint.h5")
     report(code == 75 and "--resume" in said and b'"interrupted"' in content(out, "summary.json"),
            f"TERM: exit 75 (exit {code}) and a word how to go on; --resume of nothing begins anew")
-    code, said = interrupted(out, signal.SIGINT, "checkpoint.h5")
-    report(code == 75, f"INT: the same (exit {code})")
+    for number in (signal.SIGINT, signal.SIGHUP):
+        code, said = interrupted(out, number, "checkpoint.h5")
+        report(code == 75, f"{number.name}: the same (exit {code})")
     answer = run(SCENE, out, SHOT, "--resume", threads=2)
     wrong = differences(whole, out)
-    report(answer.code == 0 and not wrong, f"stopped twice and resumed: the same bits {wrong[:5]}",
+    report(answer.code == 0 and not wrong, f"stopped three times and resumed: the same bits {wrong[:5]}",
            answer)
     answer = run(SCENE, out, SHOT, "--resume", "--json")
     report(answer.code == 0 and "nothing to do" in answer.said and answer.json()

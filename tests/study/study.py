@@ -1,6 +1,7 @@
 """Studies: tables against single runs and against moments taken here, bits, failures, draws."""
 import math
 import os
+import re
 import tempfile
 
 import h5py
@@ -12,6 +13,19 @@ from tap import done, figure, gamut, report
 
 def relative(got, expected):
     return abs(got - expected) / abs(expected)
+
+
+def nothing_random(folder):
+    fixed = re.sub(r"\{mean: ([^,]*),[^}]*\}", r"\1", DRIVER)
+    aside = fixed.replace("8000 kg/m3", "{mean: 8000 kg/m3, cv: 0.01}")
+    for name, text, words in (
+            ("fixed", fixed, "no parameter of the scene is random"),
+            ("aside", aside, "no quantity depends on what is random")):
+        scene = write(folder, name + ".yaml", text
+                      + "uncertainty: {estimator: {model: monte_carlo, runs: 4}}\n")
+        answer = gamut("run", scene, "-o", os.path.join(folder, name))
+        report(answer.code == 0 and f"4 runs gave the same values to the last bit: {words}"
+               in answer.said, f"a study that varies nothing says so: {words}", answer)
 
 
 def sweep_grid(folder):
@@ -181,6 +195,7 @@ def without(folder):
 
 
 with tempfile.TemporaryDirectory() as scratch:
+    nothing_random(scratch)
     sweep_grid(scratch)
     monte_carlo(scratch)
     draws(scratch)

@@ -99,15 +99,15 @@ def check_force(name, result, effect, along, sign, scale):
 
 
 def check_work(name, result, effects):
-    """What planes report against the ledger; it and what is lost there make up the matter's."""
+    """What planes report against the ledger, and what the matter has of it there."""
     lines = result.summary["ledger"]["energy"]["lines"]
     work = sum(series(result, f"{effect}_work")[-1] for effect in effects)
     scenes.below(f"{name}: work of the planes against the ledger's",
                  work / lines["planes"]["value"] - 1, CLOSE)
-    lost = sum(line["value"] for line in lines.values() if line["role"] == "lost")
-    gained = sum(series(result, what)[-1] for what in ("kinetic", "internal"))
+    part = {role: sum(line["value"] - line["start"] for line in lines.values()
+                      if line["role"] == role) for role in ("stored", "lost")}
     scenes.below(f"{name}: work less losses against the matter's energy",
-                 (work - lost - gained) / work, CLOSE)
+                 (work - part["lost"] - part["stored"]) / work, CLOSE)
 
 
 def area_of(geometry):

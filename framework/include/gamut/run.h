@@ -325,6 +325,11 @@ struct gamut_host {
   /* Takes the points in these slots (ascending) out of a set. In each block its last points take
    * the free slots, so that padding stays at the end. Between steps; for solvers. */
   void (*drop)(struct gamut_run *, struct gamut_set *, const uint32_t *slot, size_t count);
+
+  /* As fail, naming the effect that asked for the plane with this reaction, and its place in the
+   * scene. */
+  gamut_status (*fail_plane)(struct gamut_run *, const struct gamut_reaction *, gamut_status status,
+                             const char *format, ...);
 };
 
 /* Every run begins with its host; the rest is the core's. */

@@ -96,10 +96,11 @@ gamut_status planes_fix_origin(struct model *m)
     const double apart = fabs(at - m->grid.origin[k]), cells = apart / m->cell;
     p->level = (int32_t)lround((at - m->grid.origin[k]) / m->cell);
     if (!p->moves && fabs(cells - round(cells)) > 1e-6)
-      return gamut_fail(m->run, GAMUT_SCENE,
-                        "planes at %c = %g m and %g m are %g cells apart, but planes must fall on "
-                        "nodes; solver.cell = %.9g m does it",
-                        "xyz"[k], m -> grid.origin[k], at, cells, apart / ceil(cells));
+      return m->host->fail_plane(
+          m->run, p->reaction, GAMUT_SCENE,
+          "planes at %c = %g m and %g m are %g cells apart, but planes must fall on nodes; "
+          "solver.cell = %.9g m does it",
+          "xyz"[k], m->grid.origin[k], at, cells, apart / ceil(cells));
   }
   return GAMUT_OK;
 }

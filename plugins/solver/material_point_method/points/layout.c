@@ -180,15 +180,16 @@ static double place_volume(const struct model *m, const struct body *b, const do
 
 static gamut_status check_planes(const struct model *m, const struct body *b, const double x[3])
 {
-  for (size_t i = 0; i < m->planes.count; i++)
-    if (plane_distance(m->planes.plane[i], x, 0.0) < -1e-9 * m->cell)
-      return gamut_fail(m->run, GAMUT_SCENE,
-                        "body '%s' reaches behind a plane: its point at (%g, %g, %g) m is %g m "
-                        "behind the plane through (%g, %g, %g) m",
-                        m->host->body_name(b->scene), x[0], x[1], x[2],
-                        -plane_distance(m->planes.plane[i], x, 0.0),
-                        m->planes.plane[i]->given.point[0], m->planes.plane[i]->given.point[1],
-                        m->planes.plane[i]->given.point[2]);
+  for (size_t i = 0; i < m->planes.count; i++) {
+    const struct plane *p = m->planes.plane[i];
+    const double depth = -plane_distance(p, x, 0.0);
+    if (depth > 1e-9 * m->cell)
+      return m->host->fail_plane(m->run, p->reaction, GAMUT_SCENE,
+                                 "body '%s' reaches behind a plane: its point at (%g, %g, %g) m is "
+                                 "%g m behind the plane through (%g, %g, %g) m",
+                                 m->host->body_name(b->scene), x[0], x[1], x[2], depth,
+                                 p->given.point[0], p->given.point[1], p->given.point[2]);
+  }
   return GAMUT_OK;
 }
 
