@@ -235,7 +235,8 @@ def tension(points, shape, transfer="flip", order="auto", stretch=3.0):
     reached = 1 + 0.01 * numpy.asarray(force["times"])
     off = numpy.abs(numpy.abs(force["values"]) / uniaxial(numpy.maximum(reached, 1.001)) - 1)
     sound = (reached > 1.1) & (reached <= min(2.0, 1 + 0.95 * (last - 1)))
-    return {"stretch": last, "end": "parts" if apart else "stops" if process.returncode else "holds",
+    end = "parts" if apart else "stops" if process.returncode else "holds"
+    return {"stretch": last, "end": end,
             "force": float(off[sound].max(initial=0.0)) if sound.any() else None}
 
 
