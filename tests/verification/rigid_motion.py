@@ -1,7 +1,10 @@
 """What only moves and turns must not be strained: by shape and transfer. Prints TAP."""
+import math
+
 import scenes  # before numpy: it skips the test where it is missing
 import schemes
 import numpy
+from laws import drive, linear_eos, material, rows, von_mises
 
 BLOCK = """gamut: 1
 title: A small block in rigid motion
@@ -97,6 +100,47 @@ def on_nodes(axes, turning, settings):
     return float(strain.max() / scale), int(on_node.sum())
 
 
+def turned(turns, steps):
+    """Largest change of stress, over the flow stress, and of volume of a stretched metal point that
+    turns so often in so many steps."""
+    card, flow = material(linear_eos(163.457e9), von_mises(792e6), 81.8e9), 792e6
+    spin_rate = 2 * math.pi * turns
+    stretch = {"log_strain": rows([(0, 0), (1, 0.003), (2, 0.003)], "")}
+    path = {"xx": stretch, "xy": {"velocity_gradient": rows([(1, 0), (1, -spin_rate)], "1/s")},
+            "yx": {"velocity_gradient": rows([(1, 0), (1, spin_rate)], "1/s")}}
+    names = ["stress_xx", "stress_yy", "stress_zz", "stress_xy", "volume_ratio"]
+    before = drive(card, {"xx": {"log_strain": 0.003}}, 1.0, steps, final=names)
+    after = drive(card, path, 2.0, 2 * steps, final=names)
+    return (max(abs(after[n] - before[n]) for n in names[:4]) / flow,
+            abs(after["volume_ratio"] - before["volume_ratio"]))
+
+
+def test_turns(turns, steps):
+    stress, volume = turned(turns, steps)
+    scenes.below(f"{turns} turns in {steps} steps, J2 beyond yield: stress over flow stress",
+                 stress, 1e-10)
+    scenes.below(f"{turns} turns in {steps} steps: change of volume", volume, 1e-10)
+
+
+def test_far_away():
+    """Cells are numbered to a million each way from the grid's origin."""
+    planes = far_plane(0, -930.0, 3) + far_plane(1, -910.0, 3)
+    text = {"geometry": "3d", "frames": 2, "planes": planes,
+            "velocity": "[20 m/s, 14 m/s, 6 m/s]"}
+    for shape in schemes.SHAPES:
+        scene = scenes.written("far", BLOCK.format(end=0.002, shape=box(3, 0.0, 0.004), **text))
+        shots = schemes.frames(scenes.run(scene, schemes.scheme(shape)), "block", ["stress"])
+        scenes.below(f"930,000 cells away, {shape}: stress over Young's modulus in flight",
+                     max(numpy.abs(f["stress"]).max() for _, f in shots) / MODULUS, 1e-10)
+    scene = scenes.written("farther", BLOCK.format(end=10.0, shape=box(3, 69.99, 69.994), **text))
+    process, _ = scenes.attempt(scene)
+    told = [w for w in ("lost at t =", "million cells", "point ", "'block'", "Position")
+            if w.lower() not in process.stderr.lower()]
+    scenes.report(process.returncode == 5 and not told,
+                  f"flight beyond a million cells: exit {process.returncode} (due 5), the point, "
+                  "its place and the time named", [process.stderr])
+
+
 def test_spin(schemes_asked):
     for scheme in schemes_asked:
         name = "spinning block, " + schemes.name(*scheme)
@@ -142,6 +186,8 @@ def main(fine):
             ("cubic", "apic", "auto")]
     some = [(s, "flip", "auto") for s in shapes] + [("quadratic", "apic", "auto"),
                                                     ("cubic", "apic", "auto")]
+    test_turns(*((10000, 1000000) if fine else (50, 5000)))
+    test_far_away()
     test_spin(schemes.table() if fine else flat)
     test_translation(schemes.table() if fine else some)
     test_on_nodes([s for s in schemes.table(shapes, ("flip", "apic")) if schemes.allowed(*s)]
