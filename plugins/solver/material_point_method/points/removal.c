@@ -60,6 +60,8 @@ gamut_status removal_start(struct model *m)
     return stray_fail(m);
   if (r->takers == 0)
     return GAMUT_OK;
+  for (int t = 0; t < m->threads; t++)
+    r->second = m->work[t]->mean_second > 0.0 ? m->work[t]->mean_second : r->second;
   r->body_mass = gamut_allocate(m->run, "removal", m->bodies * sizeof *r->body_mass);
   if (r->body_mass == NULL)
     return GAMUT_INTERNAL;

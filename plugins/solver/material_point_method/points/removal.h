@@ -41,6 +41,7 @@ struct removals {
   double *gone;          /* GONE_SUMS a taker, of each block of points */
   size_t room;
   double now[GONE_SUMS]; /* of the step just taken */
+  double second;         /* of affine velocity fields: the mean second moment of the weights, m2 */
   size_t since_sort;     /* points that left */
   bool sort_due;
   struct stray stray;
