@@ -62,8 +62,8 @@ def disks(settings):
 
 
 def test_free(asked):
-    """Momentum is kept to round-off by all, and the moment of momentum by apic with splines; both
-    accounts close to round-off for all."""
+    """Momentum is kept to round-off by all, and the moment of momentum by apic; both
+    accounts close for all."""
     for scheme in asked:
         for axes in (2, 3):
             name = f"free block, {axes} axes, {schemes.name(*scheme)}"
@@ -75,11 +75,12 @@ def test_free(asked):
                 continue
             scenes.below(f"{name}: ledger", found["residual"], 1e-12)
             scenes.below(f"{name}: change of momentum", found["momentum"],
-                         1e-13 if scheme[1] == "flip" else 1e-11)
+                         1e-13 if scheme[1] == "flip" else 1e-10)
             scenes.report(-0.6 < found["energy"] < 0.03,
                           f"{name}: change of energy {found['energy']:+.3f} (at most 0.03)")
-            if scheme[1] == "apic" and scheme[0] in ("quadratic", "cubic"):
-                scenes.below(f"{name}: change of angular momentum", found["spin"], 1e-11)
+            if scheme[1] == "apic":
+                scenes.below(f"{name}: change of angular momentum", found["spin"],
+                             1e-9 if scheme[0] == "gimp" else 1e-11)
 
 
 def test_disks(asked):
@@ -106,7 +107,7 @@ def test_disks(asked):
 def main(fine):
     some = [(s, "flip", "auto") for s in schemes.SHAPES] + [
         ("quadratic", "flip", "musl"), ("quadratic", "pic", "auto"), ("quadratic", "apic", "auto"),
-        ("cubic", "apic", "auto"), ("quadratic", "xpic 3", "auto")]
+        ("gimp", "apic", "auto"), ("quadratic", "xpic 3", "auto")]
     test_free(schemes.table() if fine else some)
     test_disks([(("quadratic", "flip", "usl"), 0.95), (("quadratic", "flip", "musl"), 0.99),
                 (("gimp", "flip", "musl"), 0.99), (("gimp", "apic", "auto"), 0.94)])

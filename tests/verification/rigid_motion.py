@@ -146,10 +146,12 @@ def test_spin(schemes_asked):
         name = "spinning block, " + schemes.name(*scheme)
         found = schemes.tell(name, spin, schemes.scheme(*scheme))
         if scheme[1] in ("flip", "apic") and scheme[0] != "linear":
+            if not scenes.report(found is not None, f"{name}: ends"):
+                continue
             scenes.below(f"{name}: largest stress over Young's modulus", found["stress"],
                          2e-3 if scheme[2] in ("auto", "usl") else 1e-2)
             scenes.below(f"{name}: kinetic energy lost in a turn", found["kinetic"], 0.04)
-        if scheme[1] == "apic" and scheme[0] in ("quadratic", "cubic"):
+        if scheme[1] == "apic" and found is not None:
             scenes.below(f"{name}: change of angular momentum in {found['steps']} steps",
                          found["angular"], 1e-11)
 
@@ -183,7 +185,7 @@ def test_on_nodes(schemes_asked):
 def main(fine):
     shapes = tuple(schemes.SHAPES)
     flat = [("gimp", "flip", "auto"), ("quadratic", "flip", "auto"), ("quadratic", "apic", "auto"),
-            ("cubic", "apic", "auto")]
+            ("gimp", "apic", "auto")]
     some = [(s, "flip", "auto") for s in shapes] + [("quadratic", "apic", "auto"),
                                                     ("cubic", "apic", "auto")]
     test_turns(*((10000, 1000000) if fine else (50, 5000)))
