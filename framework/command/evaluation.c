@@ -71,9 +71,6 @@ void evaluation_free(struct evaluation *e)
   free(e->second);
 }
 
-/* ---- reading the inputs ------------------------------------------------------------------------
- */
-
 gamut_status split_pairs(struct command *command, const char *option, const char *text,
                          gamut_status (*take)(void *, const char *name, const char *value),
                          void *self)
@@ -180,9 +177,6 @@ double evaluation_input(const struct evaluation *e, size_t index, size_t point)
     return input->to;
   return input->from + (input->to - input->from) * (double)k / (double)(input->count - 1);
 }
-
-/* ---- calling the kernel ------------------------------------------------------------------------
- */
 
 static gamut_status count_points(struct evaluation *e, struct command *command)
 {

@@ -111,9 +111,6 @@ gamut_status evaluation_json(struct evaluation *e, FILE *file, struct trace *tra
   return GAMUT_OK;
 }
 
-/* ---- for people --------------------------------------------------------------------------------
- */
-
 static const char *shown_unit(const char *unit)
 {
   return unit && strcmp(unit, "1") != 0 ? unit : "";

@@ -63,9 +63,6 @@ void block_mark(struct block *block)
   memset(bench_status(block->bench), 0, BLOCK_ROOM * sizeof(int64_t));
 }
 
-/* ---- drawing points ----------------------------------------------------------------------------
- */
-
 static double draw_input(struct proof *proof, const char *name, size_t corner)
 {
   struct span span = span_of(name);
@@ -122,9 +119,6 @@ void block_draw(struct block *block, size_t round)
     if (block->kept[s] && block->array[s])
       memcpy(block->kept[s], block->array[s], BLOCK_ROOM * sizeof(double));
 }
-
-/* ---- the checks --------------------------------------------------------------------------------
- */
 
 static bool named(const char **list, size_t count, const char *name)
 {

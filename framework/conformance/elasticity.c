@@ -53,9 +53,6 @@ static void rotation(double angle, matrix r)
       r[3 * i + j] = (i == j ? c : 0) + (1 - c) * n[i] * n[j] + s * cross[3 * i + j];
 }
 
-/* ---- a point that follows a path ---------------------------------------------------------------
- */
-
 struct path {
   struct suite *suite;
   struct block *block;
@@ -198,9 +195,6 @@ static void turned(const matrix r, const matrix a, matrix out)
   multiply(a, t, t);
   multiply(r, t, out);
 }
-
-/* ---- the checks --------------------------------------------------------------------------------
- */
 
 static void prove_rotations(struct path *path)
 {

@@ -33,9 +33,6 @@ double draw_between(struct proof *proof, double lower, double upper)
   return lower + u * (upper - lower);
 }
 
-/* ---- parameters --------------------------------------------------------------------------------
- */
-
 /* What is usual for a solid, by the unit. */
 static double usual(const struct parameter *p)
 {
@@ -236,9 +233,6 @@ bool draw_settings(struct proof *proof, size_t corner, struct specimen *specimen
   specimen_close(&base);
   return false;
 }
-
-/* ---- states ------------------------------------------------------------------------------------
- */
 
 struct span span_of(const char *name)
 {

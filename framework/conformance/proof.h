@@ -61,9 +61,6 @@ void prove_solver(struct proof *);
  * threads. */
 void prove_scene(struct proof *);
 
-/* ---- kernels -----------------------------------------------------------------------------------
- */
-
 /* Blocks of points with guard bands: arrays are BLOCK_ROOM long, calls use at most BLOCK_POINTS. */
 enum { BLOCK_POINTS = 256, BLOCK_ROOM = BLOCK_POINTS + 24 };
 

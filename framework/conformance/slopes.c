@@ -117,9 +117,6 @@ void prove_slopes(struct proof *proof, struct block *block, kernel_function func
   }
 }
 
-/* ---- derivatives by parameters -----------------------------------------------------------------
- */
-
 static double at_of(const struct proof *proof, const struct block *block, size_t by, size_t point)
 {
   const char *name = proof->descriptor->derivative_by[by];

@@ -163,7 +163,7 @@ const struct parameter *parameter_named(const struct parameter *, size_t count, 
 /* Index of a parameter of the descriptor, or -1. */
 int descriptor_parameter(const struct descriptor *, const char *name);
 
-/* ---- the block that a kernel of this plugin sees --------------------------------------------- */
+/* The block that a kernel of this plugin sees. */
 
 /* What a pointer of the generated struct leads to, in declared order after count and status. */
 enum slot_kind {

@@ -55,10 +55,6 @@ bool host_domain(const struct gamut_run *run, double lower[3], double upper[3])
   return any;
 }
 
-/* ---- random fields
- * -------------------------------------------------------------------------------
- */
-
 static gamut_status make_field(struct gamut_run *run, const struct value *value,
                                struct chance **out)
 {
@@ -178,10 +174,6 @@ gamut_status host_sample(struct gamut_run *run, const struct gamut_values *value
   *given = field && field->present && field->model;
   return *given ? sample_field(run, field, name, count, position, id, value) : GAMUT_OK;
 }
-
-/* ---- parameters at points
- * ------------------------------------------------------------------------
- */
 
 /* Numbers of a field become values of the parameter: its distribution is kept. */
 static void translate(const struct chance *chance, const struct distribution *d, size_t count,

@@ -59,7 +59,6 @@ struct probe {
   struct running_effect *effect; /* provider, or null: the solver */
   int64_t id;             /* the point that is followed */
   size_t slot;            /* where it was last */
-  bool gone;              /* and is no more */
   double distance;        /* of the point from the place asked for */
   bool left;              /* the point is no longer there */
 };

@@ -173,7 +173,7 @@ static void find_again(struct gamut_run *run, int body)
     if (run->follower[i]->quantity->body == body)
       run->follower[i]->slot = SIZE_MAX;
   for (size_t slot = 0; slot < set->open.slots; slot++) {
-    size_t low = 0, high = count;
+    size_t low = 0, high = set->id[slot] < 0 ? 0 : count;
     while (low < high) {
       const struct probe *middle = run->follower[(low + high) / 2];
       if (middle->quantity->body < body ||
@@ -191,18 +191,9 @@ static void find_again(struct gamut_run *run, int body)
 static double at_material_point(struct gamut_run *run, struct probe *probe)
 {
   const struct point_set *set = run->set[probe->quantity->body];
-  if (probe->gone || probe->id < 0)
-    return NAN;
   if (probe->slot >= set->open.slots || set->id[probe->slot] != probe->id)
     find_again(run, probe->quantity->body);
-  if (probe->slot != SIZE_MAX)
-    return formula_value(&probe->formula, run, set, probe->slot);
-  probe->gone = true;
-  trace_warn_at(run->trace, NULL, NULL, NULL,
-                "the point that quantity '%s' follows is gone at t = %g: it has no values from "
-                "there on",
-                probe->quantity->name, run->time);
-  return NAN;
+  return probe->slot == SIZE_MAX ? NAN : formula_value(&probe->formula, run, set, probe->slot);
 }
 
 /* Mean over the body's points within one cell of the place. */
@@ -256,7 +247,7 @@ static bool has_left(struct gamut_run *run, struct probe *probe)
     return probe->left;
   if (probe->slot < set->open.slots && set->id[probe->slot] == probe->id)
     return false;
-  probe->slot = set_find(set, probe->id);
+  find_again(run, q->body);
   probe->left = probe->slot == SIZE_MAX;
   if (!probe->left)
     return false;

@@ -276,9 +276,6 @@ done:
   return status;
 }
 
-/* ---- a run that is at its end ------------------------------------------------------------------
- */
-
 static bool says_done(const char *folder)
 {
   char *path = file_path(folder, "summary.json");

@@ -53,9 +53,6 @@ char *restart_plugins_text(const struct gamut_run *run)
   return NULL;
 }
 
-/* ---- the scene ---------------------------------------------------------------------------------
- */
-
 struct difference {
   const struct tree *was, *now; /* one of them null: the key is new, or gone */
 };
@@ -133,9 +130,6 @@ gamut_status restart_same_scene(const struct tree *was, const struct tree *now, 
                        "the run in '%s' is one of another scene: '%s' was %s and is %s", folder,
                        path, before, after);
 }
-
-/* ---- plugins -----------------------------------------------------------------------------------
- */
 
 enum { WORD = 200 };
 struct line {

@@ -58,7 +58,7 @@ void *scene_take(size_t count, size_t size);                   /* freed by its o
 void *scene_keep(struct reading *, size_t count, size_t size); /* freed with the scene */
 char *scene_text(struct reading *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* ---- blame.c: faults in words. `expected` may be null. ---- */
+/* blame.c: faults in words. `expected` may be null. */
 
 void blame_value(struct reading *, const struct tree *, const char *expected, const char *format,
                  ...) __attribute__((format(printf, 4, 5)));
@@ -91,7 +91,7 @@ void expect_keys(struct reading *, const struct tree *, const char *const *known
 bool expect_name(struct reading *, const struct tree *, const char *what);
 bool has_name(const char *const *name, size_t count, const char *wanted);
 
-/* ---- one value ---- */
+/* One value. */
 
 bool unit_is_pure(const char *unit);
 /* A number in SI from a scalar; faults are told at the node. */
@@ -114,7 +114,7 @@ const char *text_read(struct reading *, const struct tree *, const char *name);
 /* A list of names, or one; kept with the scene. */
 const char **names_read(struct reading *, const struct tree *, const char *name, size_t *count);
 
-/* ---- values of a section ---- */
+/* Values of a section. */
 
 struct section {
   const struct descriptor *descriptor; /* of constraints and given sets; null: none */
@@ -137,7 +137,7 @@ const struct given_set *given_set_chosen(const struct values *, const struct des
 /* Chooses the given set, derives, checks ranges of what is derived, then the constraints. */
 void values_check(struct reading *, struct values *, const struct descriptor *, const char *what);
 
-/* ---- parts of a scene ---- */
+/* Parts of a scene. */
 
 /* Reads the file with what it includes, puts overrides in. */
 struct tree *include_read(struct reading *, const char *file, const struct scene_override *,

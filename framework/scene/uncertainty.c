@@ -5,9 +5,6 @@
 #include "random/correlation.h"
 #include "scene/reading.h"
 
-/* ---- random parameters --------------------------------------------------------------------------
- */
-
 /* All random values of a scene, then put in the order of the file. */
 struct collection {
   struct random_parameter *item;
@@ -127,9 +124,6 @@ gamut_status scene_draw(struct scene *scene, const double *drawn, struct trace *
   return status;
 }
 
-/* ---- correlation --------------------------------------------------------------------------------
- */
-
 static bool random_named(struct reading *reading, const struct tree *node, size_t *index)
 {
   const struct scene *scene = reading->scene;
@@ -214,9 +208,6 @@ static void correlation_read(struct reading *reading, const struct tree *node)
                 fabs(least) <= CORRELATION_LEAST ? 0.0 : least);
 }
 
-/* ---- the section --------------------------------------------------------------------------------
- */
-
 static void seed_read(struct reading *reading, const struct tree *node)
 {
   reading->scene->seed = 1;
@@ -259,9 +250,6 @@ void uncertainty_read(struct reading *reading, const struct tree *root)
     instance_read(reading, GAMUT_KIND_ESTIMATOR, "estimator", estimator, NULL, 0,
                   &reading->scene->estimator);
 }
-
-/* ---- levels -------------------------------------------------------------------------------------
- */
 
 /* Keys of a scene that a level may change. */
 static bool may_vary(const char *path)

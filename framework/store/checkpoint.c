@@ -21,9 +21,6 @@ struct checkpoint {
   bool writing, broken; /* HDF5 failed: closing would fail too */
 };
 
-/* ---- checksum ----------------------------------------------------------------------------------
- */
-
 static const char mark[] = "\ngamut checksum ";
 enum { TRAILER = sizeof mark - 1 + 16 + 1 };
 
@@ -121,9 +118,6 @@ static const char *flaw(const char *path)
   close(file);
   return why;
 }
-
-/* ---- writing -----------------------------------------------------------------------------------
- */
 
 static struct checkpoint *checkpoint_new(const char *folder, const char *name)
 {
@@ -269,9 +263,6 @@ done:
   checkpoint_close(checkpoint);
   return status;
 }
-
-/* ---- reading -----------------------------------------------------------------------------------
- */
 
 static gamut_status open_whole(const char *folder, struct trace *trace, struct checkpoint **opened)
 {

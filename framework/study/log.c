@@ -78,9 +78,6 @@ void log_digest(struct study *study)
   snprintf(study->digest, sizeof study->digest, "%016" PRIx64, h);
 }
 
-/* ---- writing ------------------------------------------------------------------------------------
- */
-
 /* The line goes out in one piece, or the study ends: what is not in the log was not run. */
 static gamut_status append(struct study *study, char *text, size_t size)
 {
@@ -181,9 +178,6 @@ void log_close(struct study *study)
     close(study->log);
   study->log = -1;
 }
-
-/* ---- reading ------------------------------------------------------------------------------------
- */
 
 static bool next_number(char **text, double *value)
 {

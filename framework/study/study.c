@@ -76,9 +76,6 @@ void study_free(struct study *study)
   free(study);
 }
 
-/* ---- a batch ------------------------------------------------------------------------------------
- */
-
 /* A run that the log has, if it is the same one. */
 static gamut_status recall(struct study *study, size_t number)
 {
@@ -230,9 +227,6 @@ static gamut_status run_batches(struct study *study)
 done:
   return status;
 }
-
-/* ---- the whole ----------------------------------------------------------------------------------
- */
 
 /* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends
  * the program leaves it whole. */

@@ -202,12 +202,13 @@ def refused_late(folder):
     """Faults that show when a run begins: the right exit code, words, and nothing on the disk."""
     bar = os.path.join(ROOT, "inputs", "taylor_bar.yaml")
     for code, setting, words in (
-            (3, "effects.wall.plane.normal=[0, -1]", "effect wall: body 'bar' reaches behind a plane"),
+            (3, "effects.wall.plane.normal=[0, -1]",
+             "effect wall: body 'bar' reaches behind a plane"),
             (3, "effects.wall.plane.normal=[0, -1]", "\n(effects.wall)"),
             (3, "quantities.length.axis=z", "no axis z"),
             (3, "quantities.length.axis=z", "\n(quantities.length)"),
-            (3, "effects.top={model: rigid_wall, plane: {point: [0 mm, 30.01 mm], normal: [0, -1]}}",
-             "effect top: planes at y"),
+            (3, "effects.top={model: rigid_wall, plane: {point: [0 mm, 30.01 mm], "
+             "normal: [0, -1]}}", "effect top: planes at y"),
             (3, "quantities.length.every=1e-15 s", "a longer `every`"),
             (2, "solver.cell", "usage: gamut run SCENE"),
             (3, 'bodies.bar.velocity=["1 / (x - x)", "0"]', "the velocity of body 'bar'"),

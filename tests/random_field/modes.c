@@ -210,9 +210,6 @@ static void test_lengths(void)
   expansion_free(&near);
 }
 
-/* ---- ensembles --------------------------------------------------------------------------------
- */
-
 enum { POINTS = 700, RUNS = 30 };
 
 static double noise_of(const struct ensemble *ensemble, int64_t id, size_t run)

@@ -49,8 +49,8 @@ def stopped(folder, whole):
         report(code == 75, f"{number.name}: the same (exit {code})")
     answer = run(SCENE, out, SHOT, "--resume", threads=2)
     wrong = differences(whole, out)
-    report(answer.code == 0 and not wrong, f"stopped three times and resumed: the same bits {wrong[:5]}",
-           answer)
+    report(answer.code == 0 and not wrong,
+           f"stopped three times and resumed: the same bits {wrong[:5]}", answer)
     answer = run(SCENE, out, SHOT, "--resume", "--json")
     report(answer.code == 0 and "nothing to do" in answer.said and answer.json()
            and not differences(whole, out), "resumed at its end: nothing to do, exit 0", answer)

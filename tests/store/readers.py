@@ -199,6 +199,20 @@ def run(name, path, settings, scratch):
     return folder if scenes.report(done.returncode == 0, f"{name} runs", [done.stderr]) else None
 
 
+# A block that flies out of the run beside one that stays.
+LEAVING = os.path.join(scenes.TREE, "plugins/effect/outflow/outflow.scene.yaml")
+FRAMES = ["outputs={every: 1 us, fields: [velocity, stress]}", "solver.end=25 us"]
+
+
+def check_leaving(folder):
+    with h5py.File(os.path.join(folder, "results.h5"), "r") as file:
+        counts = [[len(file["frames"][key][name]["id"]) for name in ("block", "still")]
+                  for key in sorted(file["frames"])]
+    scenes.report(counts[0] == [256, 64] and counts[-1] == [0, 64]
+                  and any(0 < block < 256 for block, _ in counts),
+                  f"points leave the run: {counts[0]} to {counts[-1]}", counts)
+
+
 def main():
     folders = {}
     with tempfile.TemporaryDirectory() as scratch:
@@ -208,6 +222,9 @@ def main():
                 check_files(name, folder, short.is_study(scene))
                 if not short.is_study(scene):
                     folders[name] = folder
+        folders["outflow"] = run("outflow", LEAVING, FRAMES, scratch)
+        check_files("outflow", folders["outflow"], False)
+        check_leaving(folders["outflow"])
         sample = os.path.join(scenes.TREE if "builddir" not in os.environ
                               else os.environ["builddir"], "tests/unit/test_store")
         for name, words in (("sample", []), ("points that go", ["shrinking"])):

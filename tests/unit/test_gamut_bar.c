@@ -141,9 +141,6 @@ static void look_at_stiffness(struct worst *worst)
   gsl_matrix_free(matrix);
 }
 
-/* ---- energy -------------------------------------------------------------------------------------
- */
-
 /* s + E~ K (s / sy)^n = T by bisection; plastic strain in *plastic. */
 static double curve_stress(const struct bar *bar, size_t p, double T, double *plastic)
 {
@@ -192,9 +189,6 @@ static void check_gradient(const struct bar *bar)
          "1e-05)",
          worst);
 }
-
-/* ---- stages
- * -------------------------------------------------------------------------------------- */
 
 static bool stage_open(struct stage *stage, const char *text, uint64_t realisation)
 {

@@ -83,6 +83,21 @@ def check_same(path, result):
                   "the same bits after a restart", [process.stderr])
 
 
+def check_gone():
+    """A block flies out through an open plane, its points one row after the other."""
+    path = scenes.os.path.join(scenes.TREE, "plugins/effect/outflow/outflow.scene.yaml")
+    result = scenes.run(path, {"quantities": "{speed: {measure: velocity_y, every: 1 us, at: {body:"
+                               " block, line: {from: [2 mm, 0.1 mm], to: [2 mm, 3.9 mm], points: 3}"
+                               "}}}"})
+    found = quantities(result)
+    low, high = found["speed.1"], found["speed.3"]
+    scenes.report(low["times"][-1] < 1.1e-6 and high["times"][-1] > 9.99e-6
+                  and max(abs(v + 200) for v in low["values"] + high["values"]) < 1e-9,
+                  "the curve of a point that leaves ends there, the others go on", [low, high])
+    scenes.report("'speed.1' follows point" in result.said and "'speed.3' follows" not in
+                  result.said, "and gamut says so", [result.said])
+
+
 text = SCENE + "".join(single(f"alone_{i + 1}", "velocity_y", (0, y), "")
                        for i, y in enumerate(LINE))
 text += single("there_alone_1", "pressure", (0, 1e-3), ", follow: space")
@@ -92,6 +107,7 @@ first = scenes.run(file)
 check_alike(first)
 check_files(first)
 check_same(file, first)
+check_gone()
 process, _ = scenes.attempt(file, {"quantities.many.every": "1e-11 s"})
 scenes.report(process.returncode == 3 and "there would be more than 1e+08 samples" in process.stderr
               and "(many)" in process.stderr, "too many samples in all are refused",

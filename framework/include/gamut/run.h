@@ -19,8 +19,6 @@ struct gamut_run;    /* one run of one scene */
 struct gamut_values;
 struct gamut_body;   /* a body of the scene */
 
-/* ---- points ---------------------------------------------------------------------------------- */
-
 enum {
   GAMUT_LANES = 8,        /* blocks and chunks are padded to a multiple of this many points */
   GAMUT_CHUNK_MAX = 1024, /* the most points a chunk can hold */
@@ -78,8 +76,6 @@ static inline double *gamut_end(const struct gamut_chunk *c, struct gamut_field 
   return c->end[f.first + k];
 }
 
-/* ---- tasks ----------------------------------------------------------------------------------- */
-
 enum gamut_access {
   GAMUT_READ_BEGIN, /* the value at the beginning of the step (or the only one) */
   GAMUT_READ,       /* the value at the end, after every task of this step that writes it; where all
@@ -115,7 +111,7 @@ struct gamut_task {
   void *self; /* borrowed */
 };
 
-/* ---- planes: a service of solvers that effects ask for --------------------------------------- */
+/* Planes: a service of solvers that effects ask for. */
 
 /* What a plane does with one component of the velocity (component 0 is along the normal, 1 and 2
  * are tangential). */
@@ -140,7 +136,7 @@ struct gamut_reaction {
   double impulse[3]; /* on the plane by the matter since the start, N s */
 };
 
-/* ---- removal: a service of solvers that let points leave the run ----------------------------- */
+/* Removal: a service of solvers that let points leave the run. */
 
 /* What may go. An effect that asks for removal gets a mark. It takes a point out by writing the
  * mark into the field `removal` (GAMUT_ADD, and only where that is still 0) in a phase before the
@@ -157,8 +153,6 @@ struct gamut_removal {
 struct gamut_removed {
   double points, mass, momentum[3], kinetic, internal;
 };
-
-/* ---- ledger ---------------------------------------------------------------------------------- */
 
 /* An account balances: sum(stored now) - sum(stored at start) = sum(supplied) - sum(lost). The core
  * reports each entry and the residual; a residual beyond 1e-10 of the account's scale is a fault of
@@ -184,8 +178,6 @@ struct gamut_law;
 
 /* Arithmetic that a scene gives for a parameter. */
 struct gamut_formula;
-
-/* ---- the table ------------------------------------------------------------------------------- */
 
 struct gamut_host {
   size_t size; /* sizeof(struct gamut_host) of the core; members are only ever added at the end */

@@ -7,8 +7,7 @@
 
 enum covariance { EXPONENTIAL, GAUSSIAN, MATERN_1_2, MATERN_3_2, MATERN_5_2 };
 
-/* ---- modes along one axis (modes.c) ------------------------------------------------------------
- */
+/* Modes along one axis (modes.c). */
 
 /* Eigenfunctions of a covariance on an interval, by falling eigenvalue. Mode j is even about the
  * middle for even j, else odd; it is positive, or rises, just right of the middle. */
@@ -30,8 +29,7 @@ void axis_free(struct axis *);
  * arrays of `nodes` numbers. The squares of all modes add to 1, the variance. */
 void axis_modes(const struct axis *, double x, size_t count, double *room, double *value);
 
-/* ---- products of modes along up to three axes (expansion.c) ------------------------------------
- */
+/* Products of modes along up to three axes (expansion.c). */
 
 enum { AXES = 3, MODES_OF_AXIS = 4096 };
 struct mode {
@@ -55,8 +53,7 @@ void expansion_free(struct expansion *);
 bool expansion_sample(const struct expansion *, const struct gamut_stream *, size_t count,
                       const double *const position[AXES], double *value);
 
-/* ---- an ensemble of samples (ensemble.c) -------------------------------------------------------
- */
+/* An ensemble of samples (ensemble.c). */
 
 struct ensemble {
   struct noise noise;
@@ -73,8 +70,7 @@ struct ensemble_report {
 bool ensemble_sample(const struct ensemble *, const struct gamut_stream *, size_t count,
                      const int64_t *id, double *value, struct ensemble_report *);
 
-/* ---- a table (table.c) -------------------------------------------------------------------------
- */
+/* A table (table.c). */
 
 struct table {
   size_t count[AXES];

@@ -27,9 +27,6 @@ static int number_of(const char *text, const char *const *name, int count)
   return k;
 }
 
-/* ---- from a kernel -----------------------------------------------------------------------------
- */
-
 static gamut_status read_domain(struct field *field, const struct gamut_values *values)
 {
   static const char *const path[] = {"domain.lower", "domain.upper"};
@@ -181,9 +178,6 @@ static gamut_status sample_expansion(struct field *field, const struct gamut_str
   return GAMUT_OK;
 }
 
-/* ---- from samples ------------------------------------------------------------------------------
- */
-
 static gamut_status create_ensemble(struct field *field, const struct gamut_values *values)
 {
   if (!gamut_given(values, "samples"))
@@ -224,9 +218,6 @@ static gamut_status sample_ensemble(struct field *field, const struct gamut_stre
                report.modes, ensemble->samples, report.held, fmax(1.0 - report.held, 0.0));
   return GAMUT_OK;
 }
-
-/* ---- the plugin --------------------------------------------------------------------------------
- */
 
 static gamut_status create_table(struct field *field, const struct gamut_values *values)
 {

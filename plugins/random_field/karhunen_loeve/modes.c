@@ -23,9 +23,6 @@ static double correlation(enum covariance covariance, double r)
   return exp(-r);
 }
 
-/* ---- exponential: in closed form ---------------------------------------------------------------
- */
-
 /* Root of t = j pi / 2 + atan(ratio / t), which gathers the even and the odd modes in one line. */
 static double frequency_of(size_t j, double ratio)
 {
@@ -60,9 +57,6 @@ static bool solve_exponential(struct axis *axis, size_t most)
   axis->modes = most;
   return true;
 }
-
-/* ---- others: Nystrom's method on Gauss's nodes, even and odd modes apart -----------------------
- */
 
 struct half_problem {
   gsl_matrix *matrix, *vector;

@@ -11,12 +11,12 @@
 
 struct bar;
 
-/* ---- sums.c: sums in a fixed order, whatever the threads -------------------------------- */
+/* sums.c: sums in a fixed order, whatever the threads. */
 
 double sum_of_products(size_t count, const double *x, const double *y);
 double largest(size_t count, const double *x); /* of absolute values; NaN if one is NaN */
 
-/* ---- operator_dense.c, operator_interpolated.c: y = G x, G the symmetric pair kernel ---- */
+/* operator_dense.c, operator_interpolated.c: y = G x, G the symmetric pair kernel. */
 
 struct pair_kernel {
   void (*apply)(const void *self, const double *x, double *y);
@@ -28,7 +28,7 @@ gamut_status dense_new(struct bar *, const double *noise, struct pair_kernel *);
  */
 gamut_status interpolated_new(struct bar *, struct pair_kernel *);
 
-/* ---- family.c: stresses of the families with Masing memory ------------------------------ */
+/* family.c: stresses of the families with Masing memory. */
 
 enum { FAMILY_CHUNK = 512 };
 
@@ -59,7 +59,7 @@ gamut_status families_evaluate(struct bar *, const double *internal);
 /* Remembers the last evaluation, which was at these T. */
 gamut_status families_commit(struct bar *, const double *internal);
 
-/* ---- load.c: the path of the force ------------------------------------------------------ */
+/* load.c: the path of the force. */
 
 enum load_kind { LOAD_MONOTONIC, LOAD_CYCLIC, LOAD_TABLE };
 enum { LEVELS_MAX = 64 };
@@ -82,8 +82,6 @@ gamut_status load_new(struct bar *);
 bool load_next(struct bar *, double *stress);
 /* After a step: where the path stands. */
 void load_stepped(struct bar *);
-
-/* ---- the bar ---------------------------------------------------------------------------- */
 
 struct level {
   double stress, strain; /* amplitudes, at the tensile tip */

@@ -63,8 +63,6 @@ gamut_status families_new(struct bar *bar, size_t depth)
   return f->count && f->trial_count && f->below ? GAMUT_OK : GAMUT_INTERNAL;
 }
 
-/* ---- memory ----------------------------------------------------------------------------- */
-
 /* What family i remembers at `level`, with the turn under way on top. */
 static double remembered(const struct families *f, size_t bonds, size_t i, size_t level, int what)
 {
@@ -114,8 +112,6 @@ static bool turns(const struct families *f, size_t bonds, size_t i, double T)
   double begin = count ? f->turn[TURN_PI][(count - 1) * bonds + i] : 0.0;
   return (T - f->internal[i]) * f->direction[i] < 0.0 && fabs(f->plastic[i] - begin) > straight;
 }
-
-/* ---- the curve -------------------------------------------------------------------------- */
 
 /* One chunk's work: bonds from to from + count; t and s of the curve, both positive. */
 struct curve {

@@ -71,8 +71,6 @@ gamut_status load_new(struct bar *bar)
   return load->kind == LOAD_TABLE ? table(bar) : monotonic(bar);
 }
 
-/* ---- where to next ---------------------------------------------------------------------- */
-
 static double next_rung(struct load *load)
 {
   load->tip = load->rung >= 0;
@@ -121,8 +119,6 @@ bool load_next(struct bar *bar, double *stress)
                                        : next_rung(load);
   return true;
 }
-
-/* ---- after a step ----------------------------------------------------------------------- */
 
 static void keep_level(struct bar *bar, long level)
 {

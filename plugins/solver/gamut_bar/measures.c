@@ -3,8 +3,6 @@
 
 #include "bar.h"
 
-/* ---- fit of the hardening law ----------------------------------------------------------- */
-
 struct fit {
   double n, K;
 };
@@ -49,8 +47,6 @@ static double hardening(const struct bar *bar, const char *name, const struct ga
                               initial ? initial_modulus(bar) : bar->modulus);
   return name[0] == 'n' ? fit.n : fit.K;
 }
-
-/* ---- the rest --------------------------------------------------------------------------- */
 
 static double strain_measure(const struct bar *bar)
 {

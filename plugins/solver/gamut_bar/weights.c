@@ -4,8 +4,6 @@
 
 #include "bar.h"
 
-/* ---- standard deviations (Eq. 31) ------------------------------------------------------- */
-
 enum { BLOCK = 64 };
 
 /* Pair potential U_pq = (e_p + e_q) / 2 d^-m; only differences of logarithms matter. */
@@ -109,8 +107,6 @@ static void find_spreads(struct bar *bar)
   for (size_t p = 0; p < bar->bonds; p++)
     bar->spread[p] = spread_of(&u, p);
 }
-
-/* ---- scaling ---------------------------------------------------------------------------- */
 
 /* r = a (G V a), the row sums of w. */
 static void row_sums(const struct bar *bar, double *r, double *work)

@@ -20,8 +20,6 @@ static const struct key {
            {"velocity_gradient", CONTROL_RATE, NORMALS, COMPONENTS}};
 enum { KEYS = sizeof key / sizeof key[0] };
 
-/* ---- reading -------------------------------------------------------------------------------- */
-
 static gamut_status check_rows(struct gamut_run *run, const struct gamut_values *values,
                                const char *path, const struct curve *curve)
 {
@@ -107,8 +105,6 @@ void path_free(struct path *path)
   for (size_t c = 0; c < COMPONENTS; c++)
     free(path->curve[c].owned);
 }
-
-/* ---- values --------------------------------------------------------------------------------- */
 
 /* On a line between rows; constant before the first and after the last. */
 static double value_at(const struct curve *curve, double time)

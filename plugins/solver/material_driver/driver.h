@@ -4,7 +4,7 @@
 
 #include "material_driver.gamut.h"
 
-/* ---- motion.c ------------------------------------------------------------------------------- */
+/* motion.c. */
 
 /* exp(A) - I. */
 void exponential_less_one(const double A[9], double G[9]);
@@ -15,7 +15,7 @@ double volume_change(const double H[9]);
 /* ln sqrt(F F') of F = I + H, components xx yy zz xy yz zx. */
 void log_strain(const double H[9], double strain[6]);
 
-/* ---- control.c ------------------------------------------------------------------------------ */
+/* control.c. */
 
 enum control { CONTROL_NONE, CONTROL_RATE, CONTROL_LOG_STRAIN, CONTROL_STRAIN, CONTROL_STRESS };
 
@@ -45,7 +45,7 @@ size_t path_stresses(const struct path *, double time, size_t component[SYMMETRI
 /* Adds to A what component k (and its mirror image) moves by. */
 void path_move(const struct path *, size_t component, double by, double A[9]);
 
-/* ---- solve.c -------------------------------------------------------------------------------- */
+/* solve.c. */
 
 /* The point of one body. */
 struct point {

@@ -15,8 +15,6 @@ static void destroy(void *self)
   free(driver);
 }
 
-/* ---- create --------------------------------------------------------------------------------- */
-
 static gamut_status make_points(struct driver *driver)
 {
   struct gamut_run *run = driver->run;
@@ -108,8 +106,6 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
     destroy(driver);
   return status;
 }
-
-/* ---- running -------------------------------------------------------------------------------- */
 
 static double energy_at_start(const struct driver *driver, size_t i)
 {
@@ -215,8 +211,6 @@ static gamut_status describe(void *self, double *step, char *text, size_t size)
   snprintf(text, size, "the scene's step");
   return GAMUT_OK;
 }
-
-/* ---- restart -------------------------------------------------------------------------------- */
 
 struct saved_point {
   double H[9], rate[SYMMETRIC], energy, work;

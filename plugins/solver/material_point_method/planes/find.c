@@ -105,9 +105,6 @@ gamut_status planes_fix_origin(struct model *m)
   return GAMUT_OK;
 }
 
-/* ---- which nodes -------------------------------------------------------------------------------
- */
-
 /* An array with room for one more. */
 static gamut_status room(struct model *m, void **array, size_t item, size_t used, size_t *capacity)
 {
