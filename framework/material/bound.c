@@ -283,8 +283,9 @@ void material_tally(struct bound_material *bound, const struct gamut_chunk *chun
       tally_block(&seat->tally[role], seat->law[role]->image->status, chunk);
   const double *factor =
       bound->step_factor != SIZE_MAX ? chunk->end[bound->step_factor] : NULL;
+  const double *removal = tally_spared(&seat->tally[ELASTICITY], chunk);
   for (size_t i = 0; factor && i < chunk->count; i++)
-    if (chunk->set->id[chunk->slot + i] >= 0)
+    if (chunk->set->id[chunk->slot + i] >= 0 && !(removal && removal[i] > 0.0))
       seat->step_factor = fmin(seat->step_factor, factor[i]);
 }
 

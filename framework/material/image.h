@@ -67,6 +67,8 @@ struct tally {
   int64_t id;
   size_t message;
 };
+/* Where the marks of flagged points go that leave the run; null where it stops for them. */
+double *tally_spared(const struct tally *, const struct gamut_chunk *);
 void tally_block(struct tally *, const int64_t *status, const struct gamut_chunk *);
 /* Sums the counts of message m over the threads' tallies; whether any is above zero. */
 bool tally_report(const struct tally *, size_t tallies, size_t stride,

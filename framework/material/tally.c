@@ -2,8 +2,7 @@
 
 #include "material/image.h"
 
-/* Where the marks of points that may leave go; null where the run stops. */
-static double *spared(const struct tally *tally, const struct gamut_chunk *chunk)
+double *tally_spared(const struct tally *tally, const struct gamut_chunk *chunk)
 {
   const struct spare *spare = tally->spare;
   return spare && spare->mark[chunk->set->index] > 0.0 ? chunk->end[spare->component] : NULL;
@@ -18,7 +17,7 @@ void tally_block(struct tally *tally, const int64_t *status, const struct gamut_
   if (!any)
     return;
   const int64_t *id = chunk->set->id + chunk->slot;
-  double *removal = spared(tally, chunk);
+  double *removal = tally_spared(tally, chunk);
   for (size_t i = 0; i < chunk->count; i++) {
     /* padding is marked with the point that it copies: its state is no better */
     if (removal && status[i] >> 8 == GAMUT_STOP && !(removal[i] > 0.0))
