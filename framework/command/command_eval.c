@@ -14,8 +14,12 @@ struct parameter_reader {
 static gamut_status take_parameter(void *self, const char *name, const char *value)
 {
   struct parameter_reader *reader = self;
-  return settings_read(reader->settings, reader->descriptor, name, value, "--param",
-                       reader->command->units, reader->command->trace);
+  const size_t before = reader->settings->count;
+  gamut_status status = settings_read(reader->settings, reader->descriptor, name, value, "--param",
+                                      reader->command->units, reader->command->trace);
+  if (status == GAMUT_OK && reader->settings->count == before)
+    status = usage_fail(reader->command, "--param: '%s' is given twice", name);
+  return status;
 }
 
 static gamut_status check_kind(struct command *command, const struct descriptor *descriptor)

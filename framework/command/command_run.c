@@ -156,6 +156,9 @@ static gamut_status run_scene(struct command *command, const struct run_argument
   if (arguments->resume && store_there(arguments->folder)) {
     TRY(run_resume(run, arguments->folder, command->trace, &store));
   } else {
+    if (arguments->resume)
+      trace_note(command->trace, "there is no result in '%s' yet: the run begins",
+                 arguments->folder);
     status = run_start(run, command->trace);
     if (status == GAMUT_SCENE)
       goto done;

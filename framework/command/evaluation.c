@@ -154,6 +154,8 @@ static gamut_status take_input(void *self, const char *name, const char *value)
   input->to = input->from;
   if (to)
     TRY(read_value(reader->command, input, to, &input->to));
+  if (input->given)
+    status = usage_fail(reader->command, "--at: '%s' is given twice", name);
   input->given = true;
 done:
   free(from);

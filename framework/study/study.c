@@ -240,6 +240,8 @@ static gamut_status begin(struct study *study, const char *folder)
   TRY(log_resume(study, folder, &there));
   if (there)
     return GAMUT_OK;
+  if (study->options.resume)
+    trace_note(study->trace, "there is no study in '%s' yet: it begins", folder);
   TRY(store_open(folder, study->options.force, study->trace, &store));
   TRY(store_scene(store, study->scene->tree, study->trace));
   status = log_begin(study, folder);

@@ -42,7 +42,8 @@ def interrupted(out, number, until):
 def stopped(folder, whole):
     out = os.path.join(folder, "term")
     code, said = interrupted(out, signal.SIGTERM, "checkpoint.h5")
-    report(code == 75 and "--resume" in said and b'"interrupted"' in content(out, "summary.json"),
+    report(code == 75 and "--resume" in said and b'"interrupted"' in content(out, "summary.json")
+           and "no result in" in said,
            f"TERM: exit 75 (exit {code}) and a word how to go on; --resume of nothing begins anew")
     for number in (signal.SIGINT, signal.SIGHUP):
         code, said = interrupted(out, number, "checkpoint.h5")
