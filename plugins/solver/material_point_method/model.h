@@ -137,7 +137,7 @@ gamut_status step_first_scatter(struct model *);
 /* The mass that a node's acceleration is taken with where it enters strain and places. A nearly
  * empty node may get a force out of all proportion to its mass: its share in the points' velocity
  * stays what it is, but it must not tear them. With linear functions and one pass that goes for
- * nodes with less than twice the mean mass of the points that they see (`square`: sum N m^2). */
+ * nodes with less than the mean mass of the points that they see (`square`: sum N m^2). */
 double step_slow_mass(const struct model *, double mass, double square);
 gamut_status step_collect(struct model *);
 gamut_status step_update_grid(void *self, const struct gamut_chunk *);

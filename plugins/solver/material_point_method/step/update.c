@@ -20,7 +20,7 @@ gamut_status step_collect(struct model *m)
 
 double step_slow_mass(const struct model *m, double mass, double square)
 {
-  const double least = m->limited ? 2.0 * fabs(square) / mass : m->grid.empty;
+  const double least = m->limited ? fabs(square) / mass : m->grid.empty;
   return mass > least ? mass : least;
 }
 
