@@ -299,6 +299,16 @@ double material_step_factor(struct bound_material *bound)
   return factor;
 }
 
+uint64_t material_evaluations(const struct bound_material *bound, enum gamut_kind kind)
+{
+  const int role = kind == GAMUT_KIND_STRENGTH ? STRENGTH : EOS;
+  uint64_t evaluated = 0;
+  for (size_t t = 0; t < bound->threads; t++)
+    if (bound->seat[t].law[role])
+      evaluated += bound->seat[t].law[role]->evaluated;
+  return evaluated;
+}
+
 /* The end of every state is its beginning until the kernel says otherwise. */
 static void carry_state(const struct bound_material *bound, const struct gamut_chunk *chunk)
 {

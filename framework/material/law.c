@@ -54,6 +54,7 @@ static void spread(struct law *law, const uint32_t *lane, size_t lanes)
 
 static void evaluate(struct law *law, const uint32_t *lane, size_t lanes)
 {
+  law->evaluated += lane ? lanes : law->image->count;
   if (!lane) {
     evaluate_all(law);
     return;

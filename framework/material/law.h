@@ -14,6 +14,7 @@ struct law {
   size_t rows, stride;
   size_t *row; /* slots that have a row: arguments first, then results */
   size_t arguments, results;
+  uint64_t evaluated; /* points, so far */
   double *memory;        /* arguments, results, sinks: one row a slot that is not uniform */
   double *gathered;      /* the same rows for listed points */
 };

@@ -73,6 +73,8 @@ void material_tally(struct bound_material *, const struct gamut_chunk *);
 /* The smallest `step_factor` that a point's elasticity gave since the last call: the next step may
  * be at most so many times this one. Infinity where none is given. */
 double material_step_factor(struct bound_material *);
+/* At how many points its strength or its eos was evaluated so far. */
+uint64_t material_evaluations(const struct bound_material *, enum gamut_kind);
 /* Fills temperature and energy of a set's points from its body; energy from pressure where the body
  * gives that (Newton on the eos at zero compression). */
 gamut_status material_initial(struct bound_material *, struct point_set *,

@@ -326,4 +326,5 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .formula_uses = host_formula_uses,
                                     .removal = host_removal,
                                     .drop = host_drop,
-                                    .fail_plane = host_fail_plane};
+                                    .fail_plane = host_fail_plane,
+                                    .count = work_open};

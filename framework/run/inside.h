@@ -2,6 +2,8 @@
 #ifndef GAMUT_RUN_INSIDE_H
 #define GAMUT_RUN_INSIDE_H
 
+#include <jansson.h>
+
 #include <gamut/plugin.h>
 
 #include "material/material.h"
@@ -49,6 +51,13 @@ struct formula {
   size_t *variable, variables;   /* components that the expression uses; SIZE_MAX: density */
   size_t *position;              /* their places in `value` */
   double *value;
+};
+
+/* A count of work that the solver keeps. */
+struct work_count {
+  const char *name;
+  uint64_t value;
+  struct work_count *next;
 };
 
 /* What a quantity is taken from. */
@@ -106,6 +115,7 @@ struct gamut_run {
   struct ledger_line *ledger;
   size_t lines, line_capacity;
   double **line_value;              /* what plugins write to */
+  struct work_count *count;         /* of the solver, a list */
 
   struct probe *probe;
   size_t probes;
@@ -202,6 +212,10 @@ gamut_status ledger_open(struct gamut_run *, const char *account, const char *na
 void ledger_start(struct gamut_run *);
 gamut_status ledger_check(struct gamut_run *);
 void ledger_free(struct gamut_run *);
+
+/* work.c: counts for summary.json; work_open is gamut_host.count. */
+uint64_t *work_open(struct gamut_run *, const char *name);
+json_t *work_json(const struct gamut_run *);
 
 /* march.c */
 gamut_status march_start(struct gamut_run *);

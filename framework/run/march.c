@@ -1,4 +1,5 @@
 #include <math.h>
+#include <sys/resource.h>
 #include <time.h>
 
 #include "field/vocabulary.h"
@@ -170,6 +171,13 @@ done:
   return status;
 }
 
+/* The kernel tells kilobytes. */
+static size_t resident_bytes(void)
+{
+  struct rusage used;
+  return getrusage(RUSAGE_SELF, &used) == 0 ? (size_t)used.ru_maxrss * 1024 : 0;
+}
+
 struct run_cost run_cost_of(const struct gamut_run *run)
 {
   struct run_cost cost = {.points = count_points(run),
@@ -177,7 +185,8 @@ struct run_cost run_cost_of(const struct gamut_run *run)
                           .wall = run->wall,
                           .cpu = run->cpu,
                           .bytes = arena_bytes(run->arena),
-                          .peak = arena_peak(run->arena)};
+                          .peak = arena_peak(run->arena),
+                          .resident = resident_bytes()};
   cost.bytes_per_point = cost.points ? (double)cost.bytes / (double)cost.points : 0.0;
   return cost;
 }

@@ -159,6 +159,8 @@ static json_t *cost_json(const struct gamut_run *run)
                       number(cost.wall > 0.0 ? run->work / cost.wall : 0.0));
   json_object_set_new(entry, "bytes_per_point", number(cost.bytes_per_point));
   json_object_set_new(entry, "peak_bytes", json_integer((json_int_t)cost.peak));
+  json_object_set_new(entry, "resident_bytes", json_integer((json_int_t)cost.resident));
+  json_object_set_new(entry, "work", work_json(run));
   return entry;
 }
 

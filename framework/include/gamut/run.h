@@ -322,6 +322,10 @@ struct gamut_host {
    * scene. */
   gamut_status (*fail_plane)(struct gamut_run *, const struct gamut_reaction *, gamut_status status,
                              const char *format, ...);
+
+  /* Opens a count of work ("sorts") for `cost.work` of the summary, which the plugin adds to; null
+   * when there is no memory. Counts must not depend on threads. In create; the name is borrowed. */
+  uint64_t *(*count)(struct gamut_run *, const char *name);
 };
 
 /* Every run begins with its host; the rest is the core's. */

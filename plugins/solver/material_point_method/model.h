@@ -73,6 +73,16 @@ struct fields {
       affine_velocity, removal;
 };
 
+/* The most that the points of a block have. */
+struct block_most {
+  double omega_squared, speed;
+};
+
+/* Counts of work for the summary. */
+struct work_counts {
+  uint64_t *slots, *node_lines, *box_lines, *sorts;
+};
+
 struct model {
   struct gamut_run *run;
   const struct gamut_host *host;
@@ -105,7 +115,7 @@ struct model {
   size_t filter_capacity;
 
   double *block_sum;   /* POINT_SUMS a block of points */
-  double *block_omega; /* largest omega squared of a block of points */
+  struct block_most *block_most;
   size_t block_capacity;
   struct node_sums *node_sum; /* one a block of nodes */
   size_t node_capacity;
@@ -114,10 +124,12 @@ struct model {
   bool collected;       /* the grid holds this step's sums already */
   double moved;         /* farthest that a point can have gone since the sort, cells */
   double omega_squared; /* largest of all points */
+  double speed;         /* fastest component that a point was moved with */
   double last_step;
   uint64_t taken; /* steps */
   bool beyond;    /* the user knows of domains longer than a cell */
   struct ledger ledger;
+  struct work_counts counts;
 };
 
 /* points/layout.c: the points of the bodies. */

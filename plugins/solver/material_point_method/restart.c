@@ -106,18 +106,18 @@ static void room_for_sums(struct model *m, struct archive *a)
 {
   if (m->grid.sources > m->block_capacity) {
     gamut_release(m->run, m->block_sum);
-    gamut_release(m->run, m->block_omega);
+    gamut_release(m->run, m->block_most);
     m->block_capacity = m->grid.sources;
     m->block_sum =
         gamut_allocate(m->run, "sums", m->block_capacity * POINT_SUMS * sizeof *m->block_sum);
-    m->block_omega = gamut_allocate(m->run, "sums", m->block_capacity * sizeof *m->block_omega);
+    m->block_most = gamut_allocate(m->run, "sums", m->block_capacity * sizeof *m->block_most);
   }
   if (m->grid.blocks > m->node_capacity) {
     gamut_release(m->run, m->node_sum);
     m->node_capacity = m->grid.blocks;
     m->node_sum = gamut_allocate(m->run, "sums", m->node_capacity * sizeof *m->node_sum);
   }
-  a->failed |= m->block_sum == NULL || m->block_omega == NULL || m->node_sum == NULL ||
+  a->failed |= m->block_sum == NULL || m->block_most == NULL || m->node_sum == NULL ||
                removal_room(m) != GAMUT_OK;
 }
 
@@ -185,6 +185,7 @@ static void pass_model(struct model *m, struct archive *a)
   pass_layout(m, a);
   pass(a, &m->moved, sizeof m->moved);
   pass(a, &m->omega_squared, sizeof m->omega_squared);
+  pass(a, &m->speed, sizeof m->speed);
   pass(a, &m->last_step, sizeof m->last_step);
   pass(a, &m->taken, sizeof m->taken);
   pass(a, &m->beyond, sizeof m->beyond);
@@ -198,7 +199,7 @@ static void pass_model(struct model *m, struct archive *a)
   if (a->failed)
     return;
   pass(a, m->block_sum, m->grid.sources * POINT_SUMS * sizeof *m->block_sum);
-  pass(a, m->block_omega, m->grid.sources * sizeof *m->block_omega);
+  pass(a, m->block_most, m->grid.sources * sizeof *m->block_most);
   pass_planes(m, a);
   pass_removal(m, a);
 }

@@ -10,7 +10,7 @@
 /* No sound is faster; it bounds the first step, before the material was asked for its own. */
 static const double fastest_sound = 1e5;
 /* Points may move so far, in cells, before they are sorted. */
-static const double sort_after = 0.5, sort_before = 0.9;
+static const double sort_after = 0.3, sort_before = 0.9;
 static const double growth = 1.1;
 
 /* The value of a stored field, zero where the scene does not store it. */
@@ -60,7 +60,7 @@ static void destroy(void *self)
   gamut_release(run, m->filter_line);
   gamut_release(run, m->body);
   gamut_release(run, m->block_sum);
-  gamut_release(run, m->block_omega);
+  gamut_release(run, m->block_most);
   gamut_release(run, m->node_sum);
   gamut_release(run, m);
 }
@@ -212,6 +212,18 @@ static gamut_status make_work(struct model *m)
   return GAMUT_OK;
 }
 
+static gamut_status open_counts(struct model *m)
+{
+  struct work_counts *c = &m->counts;
+  c->slots = m->host->count(m->run, "slots");
+  c->node_lines = m->host->count(m->run, "node_lines");
+  c->box_lines = m->host->count(m->run, "box_lines");
+  c->sorts = m->host->count(m->run, "sorts");
+  return c->slots != NULL && c->node_lines != NULL && c->box_lines != NULL && c->sorts != NULL
+             ? GAMUT_OK
+             : GAMUT_INTERNAL;
+}
+
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
   struct model *m = gamut_allocate(run, "solver", sizeof *m);
@@ -233,6 +245,8 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
     status = step_register(m);
   if (status == GAMUT_OK)
     status = ledger_open(m);
+  if (status == GAMUT_OK)
+    status = open_counts(m);
   if (status == GAMUT_OK && m->bounded && strcmp(gamut_text(values, "domain.outside"), "stop") != 0)
     status = removal_open_domain(m);
   if (status == GAMUT_OK && m->geometry == GEOMETRY_AXISYMMETRIC) {
@@ -296,7 +310,7 @@ static gamut_status next(void *self, double *step)
   /* the last two steps share what is left, so that none is tiny */
   if (m->fixed_step == 0.0 && *step < left && left < 2.0 * *step)
     *step = 0.5 * left;
-  const double ahead = m->nodes.speed * *step / m->cell;
+  const double ahead = m->speed * *step / m->cell;
   if (!m->removal.sort_due) {
     if (m->moved <= sort_after && m->moved + ahead <= sort_before)
       return GAMUT_OK;
@@ -328,11 +342,17 @@ static gamut_status after(void *self)
 {
   struct model *m = self;
   const double step = gamut_time_step(m->run);
-  m->omega_squared = 0.0;
-  for (size_t s = 0; s < m->grid.sources; s++)
-    m->omega_squared = fmax(m->omega_squared, m->block_omega[s]);
+  m->omega_squared = m->speed = 0.0;
+  for (size_t s = 0; s < m->grid.sources; s++) {
+    m->omega_squared = fmax(m->omega_squared, m->block_most[s].omega_squared);
+    m->speed = fmax(m->speed, m->block_most[s].speed);
+  }
+  m->moved += m->speed * step / m->cell;
   m->last_step = step;
   m->taken++;
+  for (size_t i = 0; i < m->bodies; i++)
+    *m->counts.slots += m->body[i].set->slots;
+  *m->counts.box_lines = m->grid.box_lines;
   tell_domains(m);
   gamut_status status = removal_keep(m);
   if (status == GAMUT_OK) {

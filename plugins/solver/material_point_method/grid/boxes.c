@@ -67,6 +67,7 @@ void *grid_lend(struct grid *g, size_t bytes, size_t kept)
 gamut_status grid_forget_boxes(struct grid *g)
 {
   const size_t used = g->box_used;
+  g->box_lines += used;
   drop_spills(g);
   g->box_used = 0;
   if (used <= g->box_capacity)

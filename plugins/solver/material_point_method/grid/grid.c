@@ -353,6 +353,32 @@ struct node_block *grid_block_at(const struct grid *g, const int32_t node[3], si
   return b < 0 ? NULL : &g->block[b];
 }
 
+bool grid_reachable(const struct grid *g, const struct node_block *b, int lower[3], int upper[3])
+{
+  bool any = false;
+  for (unsigned k = 0; k < 3; k++) {
+    lower[k] = k < g->dimension ? g->side : 0;
+    upper[k] = k < g->dimension ? 0 : 1;
+  }
+  for (unsigned o = 0; o < g->neighbours; o++) {
+    if (b->neighbour[o] < 0 || g->block[b->neighbour[o]].source < 0)
+      continue;
+    any = true;
+    for (unsigned k = 0, rest = o; k < g->dimension; k++, rest /= 3) {
+      /* the tile of points there, in nodes of this block */
+      const int from = g->side * ((int)(rest % 3) - 1) - 1, to = from + g->tile;
+      lower[k] = from < lower[k] ? from : lower[k];
+      upper[k] = to > upper[k] ? to : upper[k];
+    }
+  }
+  for (unsigned k = 0; k < g->dimension; k++) {
+    lower[k] = lower[k] > 0 ? lower[k] : 0;
+    upper[k] = upper[k] < g->side ? upper[k] : g->side;
+    any = any && lower[k] < upper[k];
+  }
+  return any;
+}
+
 void grid_node(const struct grid *g, const struct node_block *b, size_t index, int32_t node[3])
 {
   for (unsigned k = 0; k < 3; k++) {

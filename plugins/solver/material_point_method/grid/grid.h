@@ -86,6 +86,7 @@ struct grid {
   struct source *source; /* in the order of chunk.serial */
   double *box;           /* pool of boxes */
   size_t box_capacity, box_used; /* in lines */
+  uint64_t box_lines;            /* of all boxes that were left so far */
   struct spill *spill;
 };
 
@@ -119,6 +120,9 @@ struct node_block *grid_block_at(const struct grid *, const int32_t node[3], siz
 gamut_status grid_open(struct grid *, struct node_block *);
 /* Gives lines to the blocks that boxes reach. */
 gamut_status grid_open_reached(struct grid *);
+/* Nodes of a block, from lower to upper - 1 along each axis, that points may touch before the next
+ * sort; false where there are none. */
+bool grid_reachable(const struct grid *, const struct node_block *, int lower[3], int upper[3]);
 /* Place of node `index` of a block. */
 void grid_node(const struct grid *, const struct node_block *, size_t index, int32_t node[3]);
 

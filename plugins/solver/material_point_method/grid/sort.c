@@ -328,10 +328,10 @@ static gamut_status room_for_sums(struct model *m)
   if (m->grid.sources > m->block_capacity) {
     const size_t capacity = m->grid.sources + m->grid.sources / 2 + 16;
     gamut_release(m->run, m->block_sum);
-    gamut_release(m->run, m->block_omega);
+    gamut_release(m->run, m->block_most);
     m->block_sum = gamut_allocate(m->run, "sums", capacity * POINT_SUMS * sizeof *m->block_sum);
-    m->block_omega = gamut_allocate(m->run, "sums", capacity * sizeof *m->block_omega);
-    m->block_capacity = m->block_sum != NULL && m->block_omega != NULL ? capacity : 0;
+    m->block_most = gamut_allocate(m->run, "sums", capacity * sizeof *m->block_most);
+    m->block_capacity = m->block_sum != NULL && m->block_most != NULL ? capacity : 0;
     if (m->block_capacity == 0)
       return GAMUT_INTERNAL;
   }
@@ -389,5 +389,6 @@ gamut_status sort_points(struct model *m)
   if (status == GAMUT_OK)
     status = planes_find(m);
   m->moved = 0.0;
+  *m->counts.sorts += 1;
   return status;
 }

@@ -229,15 +229,23 @@ static gamut_status find_in_block(struct model *m, size_t plane, const struct no
 {
   const struct plane *p = m->planes.plane[plane];
   int32_t middle[3], node[3];
+  int lower[3], upper[3];
   double reach = 0.0;
   for (unsigned k = 0; k < 3; k++) {
     middle[k] = k < m->dimension ? b->at[k] * m->grid.side + m->grid.side / 2 : 0;
     reach += fabs(p->given.normal[k]) * m->grid.side;
   }
-  if (node_distance(m, p, middle) > reach)
+  if (node_distance(m, p, middle) > reach || !grid_reachable(&m->grid, b, lower, upper))
     return GAMUT_OK;
   for (size_t i = 0; i < m->grid.block_nodes; i++) {
     grid_node(&m->grid, b, i, node);
+    bool reachable = true;
+    for (unsigned k = 0; k < m->dimension; k++) {
+      const int at = node[k] - b->at[k] * m->grid.side;
+      reachable = reachable && at >= lower[k] && at < upper[k];
+    }
+    if (!reachable)
+      continue;
     const double d = node_distance(m, p, node);
     gamut_status status = GAMUT_OK;
     if (p->images && d == 0.0)

@@ -36,10 +36,20 @@ gamut_status leave_box(struct model *m, struct work *w, size_t serial)
   return grid_leave(&m->grid, serial, w->sums);
 }
 
+/* In the sweep that moves the points. */
+static void leave_speed(struct model *m, struct work *w, size_t serial)
+{
+  m->block_most[serial].speed = w->speed;
+  w->speed = 0.0;
+}
+
 gamut_status leave_momentum(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
-  return leave_box(m, m->work[chunk->thread], chunk->serial);
+  struct work *w = m->work[chunk->thread];
+  if (m->order == ORDER_USF)
+    leave_speed(m, w, chunk->serial);
+  return leave_box(m, w, chunk->serial);
 }
 
 gamut_status leave_sums(struct model *m, struct work *w, size_t serial)
@@ -52,8 +62,10 @@ gamut_status leave_sums(struct model *m, struct work *w, size_t serial)
     m->block_sum[serial * POINT_SUMS + q] = sum;
   }
   memset(w->point_sum, 0, POINT_SUMS * GAMUT_LANES * sizeof *w->point_sum);
-  m->block_omega[serial] = w->omega_squared;
+  m->block_most[serial].omega_squared = w->omega_squared;
   w->omega_squared = 0.0;
+  if (m->order != ORDER_USF)
+    leave_speed(m, w, serial);
   return status;
 }
 

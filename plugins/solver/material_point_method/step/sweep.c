@@ -56,14 +56,19 @@ static void renew_velocity(struct model *m, const struct gamut_chunk *chunk)
 static void move(struct model *m, const struct gamut_chunk *chunk, const double *const carry[3])
 {
   const double step = gamut_time_step(m->run);
+  double most = m->work[chunk->thread]->speed;
   for (unsigned k = 0; k < m->dimension; k++) {
     const double *restrict from = gamut_begin(chunk, m->field.position, k);
     const double *restrict v = carry[k];
     double *restrict to = gamut_end(chunk, m->field.position, k);
-#pragma omp simd
-    for (size_t i = 0; i < chunk->count; i++)
+#pragma omp simd reduction(max : most)
+    for (size_t i = 0; i < chunk->count; i++) {
+      const double speed = fabs(v[i]);
       to[i] = from[i] + step * v[i];
+      most = speed > most ? speed : most;
+    }
   }
+  m->work[chunk->thread]->speed = most;
 }
 
 /* The chunk's domains as they were when the step began. */

@@ -125,11 +125,12 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
   for (size_t b = 0; b < m->grid.blocks; b++)
     update_block(m, b, step);
   memset(&m->nodes, 0, sizeof m->nodes);
-  for (size_t b = 0; b < m->grid.blocks; b++)
+  for (size_t b = 0; b < m->grid.blocks; b++) {
     add_nodes(&m->nodes, &m->node_sum[b]);
+    *m->counts.node_lines += m->grid.block[b].line != NULL ? m->grid.block_nodes : 0;
+  }
   if (planes_after_update(m, step) != GAMUT_OK)
     return GAMUT_INTERNAL;
-  m->moved += m->nodes.speed * step / m->cell;
   return m->rule == RULE_XPIC ? step_filter(m) : GAMUT_OK;
 }
 

@@ -33,6 +33,7 @@ struct work {
   int32_t pending_node;       /* -1: none */
   double *point_sum;          /* lanes of POINT_SUMS */
   double omega_squared;
+  double speed; /* fastest component that a point was moved with */
   int beyond; /* gimp: some point's domain is longer than a cell */
   int lower[3], upper[3]; /* nodes that were added to; empty between blocks */
 };
