@@ -46,8 +46,6 @@ static gamut_status open_motion(struct model *m, unsigned k)
       status = line(m, a, "external forces", unit, GAMUT_SUPPLIED, &l->external_impulse[k]);
     if (status == GAMUT_OK)
       status = line(m, a, "planes", unit, GAMUT_SUPPLIED, &l->plane_impulse[k]);
-    if (status == GAMUT_OK)
-      status = line(m, a, "nearly empty nodes", unit, GAMUT_SUPPLIED, &l->empty_nodes[k]);
   }
   if (keeps_spin(m, k) && status == GAMUT_OK) {
     const char *a = spin[k], *unit = "kg m2/s";
@@ -178,7 +176,6 @@ void ledger_keep(struct model *m, double step)
     if (l->forward[k] != NULL) {
       *l->external_impulse[k] += step * was[SUM_FORCE + k];
       *l->plane_impulse[k] += m->planes.impulse[k];
-      *l->empty_nodes[k] -= m->nodes.lost[k];
     }
     if (l->round[k] != NULL) {
       *l->external_torque[k] += step * was[SUM_TORQUE + k];

@@ -44,7 +44,6 @@ struct node_sums {
   double kinetic_before, kinetic_after;
   double work; /* of all forces */
   double spin_after[3];
-  double lost[3]; /* momentum that pic does not give to the points, at nearly empty nodes */
   double speed;   /* fastest component */
 };
 
@@ -63,7 +62,7 @@ struct ledger {
   double *mass, *kinetic, *internal, *stagger;
   double *forward[3], *backward[3], *round[3], *back_round[3];
   double *external_work, *plane_work, *impact_loss, *scatter_loss, *gather_loss, *remainder;
-  double *external_impulse[3], *plane_impulse[3], *empty_nodes[3];
+  double *external_impulse[3], *plane_impulse[3];
   double *external_torque[3], *plane_torque[3], *spin_loss[3];
 };
 
@@ -95,7 +94,9 @@ struct model {
   int filter;      /* m of XPIC(m) */
   bool contiguous; /* gimp: domains follow the stretch */
   double cell, courant, fixed_step;
-  double pic; /* share of the nodes' velocity itself in the points' new one */
+  double pic;      /* share of the nodes' velocity itself in the points' new one */
+  double give_old; /* share of their velocity before the step that goes with its change: pic, but
+                      with xpic none, which filters it first */
   bool bounded;
   double lower[3], upper[3]; /* domain */
   int points_per_cell;       /* by default, along one axis */

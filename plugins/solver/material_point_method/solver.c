@@ -124,6 +124,7 @@ static gamut_status read_rule(struct model *m, const struct gamut_values *values
   m->rule = (enum rule)chosen(values, "transfer.model", rules);
   m->filter = (int)gamut_integer(values, "transfer.order");
   m->pic = m->rule == RULE_FLIP ? gamut_real(values, "transfer.pic") : 1.0;
+  m->give_old = m->rule == RULE_XPIC ? 0.0 : m->pic;
   if (m->rule != RULE_FLIP && gamut_given(values, "transfer.pic"))
     return gamut_fail_at(m->run, values, "transfer.pic", "model: flip, or no pic",
                          "pic is a share in flip; %s takes none", rules[m->rule]);

@@ -21,9 +21,10 @@ enum {
 /* A line after the sums ... LINE_SQUARE is the sum of N m^2 of the points where the model asks for
  * it, else 0; planes make it negative at nodes that they act on. */
 enum { LINE_MASS = 0, LINE_MOMENTUM = 1, LINE_FORCE = 4, LINE_SQUARE = 7 };
-/* ... and after the update. LINE_CHANGE is the step's change of velocity as the points' velocity
- * gets it; the part LINE_SLOW of it is in LINE_VELOCITY. In the second pass of MUSL the first new
- * velocity moves there, and LINE_VELOCITY is the re-projected one. */
+/* ... and after the update. LINE_CHANGE is what the points' velocity gets: the step's
+ * change of velocity, of which the part LINE_SLOW is in LINE_VELOCITY, and a share of the velocity
+ * before. In the second pass of MUSL the first new velocity moves there, and LINE_VELOCITY is the
+ * re-projected one. */
 enum { LINE_VELOCITY = 0, LINE_CHANGE = 3, LINE_SHARE = 6, LINE_SLOW = 7 };
 
 struct node_block {

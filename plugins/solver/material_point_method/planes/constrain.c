@@ -2,8 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "planes/planes.h"
 #include "model.h"
+#include "planes/planes.h"
 
 /* Adds the image of the node behind to the node before. The mass is line[mass], the momentum begins
  * at `vector`; forces go along where there are any. */
@@ -273,6 +273,18 @@ static void give_rest(struct model *m, double step)
       touched_line(m, (int32_t)i)[LINE_CHANGE + k] += ps->touched[i].rest[k];
 }
 
+/* The share of the velocity before the step that goes to the points with its change. */
+static void give_old(struct model *m)
+{
+  for (size_t i = 0; i < m->planes.touches; i++) {
+    double *line = touched_line(m, (int32_t)i);
+    for (int k = 0; k < 3; k++) {
+      const double change = line[LINE_CHANGE + k] - m->planes.touched[i].rest[k];
+      line[LINE_CHANGE + k] += m->give_old * (line[LINE_VELOCITY + k] - change);
+    }
+  }
+}
+
 gamut_status planes_after_update(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
@@ -311,7 +323,10 @@ gamut_status planes_after_update(struct model *m, double step)
   }
   if (m->limited)
     give_rest(m, step);
-  return planes_book(m, step);
+  const gamut_status status = planes_book(m, step);
+  if (m->give_old != 0.0)
+    give_old(m);
+  return status;
 }
 
 void planes_before_second(struct model *m)

@@ -66,7 +66,6 @@ static void book_nodes(struct model *m, double step)
       m->nodes.kinetic_before += 0.5 * t->mass * old * old;
       m->nodes.kinetic_after += 0.5 * t->mass * v * v;
       m->nodes.work += (step * t->force[k] - t->mass * t->rest[k]) * mean;
-      m->nodes.lost[k] += m->rule == RULE_XPIC ? 0.0 : m->pic * t->mass * t->rest[k];
       ps->work += own * p->given.velocity[k];
       ps->loss += own * (p->given.velocity[k] - mean);
       p->reaction->work += own * p->given.velocity[k];

@@ -19,23 +19,19 @@ static void components(const struct gamut_chunk *chunk, struct gamut_field f, un
     out[k] = end ? gamut_end(chunk, f, k) : gamut_begin(chunk, f, k);
 }
 
+/* What a point keeps of its velocity, and what the nodes give it. */
 static void advance_velocity(const struct model *m, const struct work *w, unsigned k, size_t count,
                              const double *restrict from, double *restrict to)
 {
-  const double *restrict v = w->value[k], *restrict change = w->value[3 + k], pic = m->pic;
-  if (m->rule == RULE_XPIC) {
-    memcpy(to, change, count * sizeof *to);
-  } else if (pic == 1.0) {
-    memcpy(to, v, count * sizeof *to);
-  } else if (pic == 0.0) {
-#pragma omp simd
-    for (size_t i = 0; i < count; i++)
-      to[i] = from[i] + change[i];
-  } else {
-#pragma omp simd
-    for (size_t i = 0; i < count; i++)
-      to[i] = (1.0 - pic) * (from[i] + change[i]) + pic * v[i];
+  const double *restrict gift = w->value[3 + k];
+  const double keep = 1.0 - m->pic;
+  if (keep == 0.0) {
+    memcpy(to, gift, count * sizeof *to);
+    return;
   }
+#pragma omp simd
+  for (size_t i = 0; i < count; i++)
+    to[i] = keep * from[i] + gift[i];
 }
 
 /* The points' new velocity, and its slope where they carry one, from what was gathered. */
@@ -92,7 +88,7 @@ gamut_status renew_momentum(void *self, const struct gamut_chunk *chunk)
   find_domains(m, chunk, &l);
   if (!m->transfer.locate(w, &l, !moves))
     return find_stray(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
-  m->transfer.gather(w, chunk->count, m->pic != 0.0 || moves);
+  m->transfer.gather(w, chunk->count, moves);
   renew_velocity(m, chunk);
   if (m->rule == RULE_APIC)
     components(chunk, m->field.affine_velocity, 9, true, view.affine);

@@ -63,9 +63,7 @@ static void update_node(const struct model *m, double *line, const double x[3], 
     add_node(line, x, v, change, spin, s);
   for (int k = 0; k < 3; k++) {
     line[LINE_VELOCITY + k] = v[k];
-    line[LINE_CHANGE + k] = touched ? change[k] : whole[k];
-    if (!touched && m->rule != RULE_XPIC)
-      s->lost[k] += m->pic * mass * (whole[k] - change[k]);
+    line[LINE_CHANGE + k] = touched ? change[k] : whole[k] + m->give_old * (v[k] - change[k]);
   }
   line[LINE_SHARE] = mass;
   line[LINE_SLOW] = mass * slow;
@@ -102,10 +100,8 @@ static void add_nodes(struct node_sums *to, const struct node_sums *from)
   to->kinetic_before += from->kinetic_before;
   to->kinetic_after += from->kinetic_after;
   to->work += from->work;
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < 3; k++)
     to->spin_after[k] += from->spin_after[k];
-    to->lost[k] += from->lost[k];
-  }
   to->speed = fmax(to->speed, from->speed);
 }
 
