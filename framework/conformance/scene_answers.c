@@ -76,9 +76,9 @@ static void compare(struct proof *proof, const struct scene_run *made, const str
   }
   double absolute = stated(proof, test, expected, "absolute", unit, 0);
   double tolerance = stated(proof, test, expected, "tolerance", "1", 1e-12);
-  double error = fabs(got - want) - absolute;
-  error = isnan(error) ? NAN : error > 0 && want != 0 ? error / fabs(want) : fmax(error, 0);
-  check_figure(&proof->checks, error, want != 0 ? tolerance : 0,
+  const double off = fabs(got - want), beyond = isnan(off) ? NAN : fmax(off - absolute, 0);
+  check_figure(&proof->checks, want != 0 ? beyond / fabs(want) : off,
+               want != 0 ? tolerance : absolute,
                "known answer: %s: %s is %.9g %s, expected %.9g, off by", title, expected->key, got,
                unit, want);
 }

@@ -141,6 +141,28 @@ def check(geometry, solver):
                   area[min(area, key=lambda t: abs(t - 0.6e-6))], area_of(geometry), 0.03)
 
 
+def check_oblique():
+    """A block that flies into a corner of two oblique walls, one of which moves."""
+    effects = {"left": {"model": "rigid_wall", "friction": 0.2,
+                        "plane": {"point": metres([-0.1e-3, 0.0]), "normal": [1.0, 1.0]}},
+               "right": {"model": "rigid_wall", "velocity": ["-10 m/s", "0 m/s"],
+                         "plane": {"point": metres([SIZE + 0.1e-3, 0.0]), "normal": [-1.0, 2.0]}}}
+    result = run("oblique", scene("plane_strain", effects, ["5 m/s", "-100 m/s"],
+                                  {"end": "3 us", "shape": "quadratic"}))
+    scale = max(abs(series(result, f"{wall}_impulse_y")).max() for wall in effects)
+    scenes.report(scale > 0, f"oblique walls are hit: {scale:.3g} N s")
+    check_momentum("oblique walls", result, effects, "xy", scale)
+    check_work("oblique walls", result, effects)
+    for wall, normal in (("left", (1, 1)), ("right", (-1, 2))):
+        length = math.hypot(*normal)
+        force = sum(series(result, f"{wall}_force_{k}") * n / length
+                    for k, n in zip("xy", normal))
+        told = series(result, f"{wall}_normal_force")
+        scenes.below(f"oblique walls: normal force of {wall} against its components",
+                     abs(told + force).max() / abs(told).max(), CLOSE)
+
+
+check_oblique()
 for kind in AXES:
     for functions in ("linear", "gimp", "quadratic", "cubic"):
         check(kind, {"shape": functions})
