@@ -1,21 +1,23 @@
 /* A scene checked against the descriptors it names. What a scene may say:
  *
- *   gamut: 1                                format, required
+ *   gamut: 1                          format, required
  *   title: text
- *   include: [materials/copper.yaml]        merged below this file; relative to the including file,
- *                                           then to the folder of inputs beside it and the
- * installed one solver: {model: NAME, ...}              the solver's parameters materials: {NAME:
- * {density:, eos: {model:, ...}, strength:, elasticity:, source: text, ...}} elasticity defaults to
- * hypoelastic; strength may be absent. Further keys: material_parameters of any installed plugin
+ *   include: [materials/copper.yaml]  merged below this file; relative to the including file, then
+ *                                     to the folder of inputs beside it and the installed one
+ *   solver: {model: NAME, ...}        the solver's parameters
+ *   materials: {NAME: {density:, eos: {model:, ...}, strength:, elasticity:, source: text, ...}}
+ *                                     elasticity defaults to hypoelastic; strength may be absent.
+ *                                     Further keys: material_parameters of any installed plugin
  *   bodies: {NAME: {material:, shape:, velocity:, temperature:, pressure: | energy:, ...}}
- *                                           velocity: vector with units, or [expression strings of
- * x, y, z in SI metres]; further keys: body_parameters of the solver effects: {NAME: {model:,
- * enabled: auto|on|off, bodies: [..], materials: [..], ...}} quantities: {NAME: {measure:,
- * ARGUMENTS, body:, at:, reduce:, every:}} outputs: {every: 5 us, fields: [..], checkpoint: 10 min}
- *                                           or {frames: 20}; checkpoint: wall time, or
- *                                           {every: 10 us}
+ *                                     velocity: vector with units, or [expression strings of x, y,
+ *                                     z in SI metres]; further keys: body_parameters of the solver
+ *   effects: {NAME: {model:, enabled: auto|on|off, bodies: [..], materials: [..], ...}}
+ *   quantities: {NAME: {measure:, ARGUMENTS, effect:, body:, at:, reduce:, every:}}
+ *                                     at: {body:, point: | points: | line:, follow:}
+ *   outputs: {every: 5 us, fields: [..], checkpoint: 10 min}
+ *                                     or {frames: 20}; checkpoint: wall time, or {every: 10 us}
  *   uncertainty: {estimator: {model:, ...}, seed:, correlation: [[path, path, number], ..],
- * failures: share}                        see study/study.h
+ *                 failures: share}    see study/study.h
  *
  * A real parameter may be random: {mean: 90 MPa, cv: 0.1} or {mean:, sd:, distribution:,
  * truncate:}; or {distribution: uniform, lower:, upper:}. A run without a study takes the mean and
