@@ -159,7 +159,7 @@ def test_pieces():
 
 def main(fine):
     test_pieces()
-    test_patch([i / 20 for i in range(20)] if fine else (0.0, 0.37), (1, 2, 3) if fine else (2, 3))
+    test_patch([i / 20 for i in range(20)] if fine else (0.0, 0.37), (1, 2, 3) if fine else (2,))
     test_beyond_a_face(range(1, 13) if fine else (1, 6, 12), (1, 2, 3) if fine else (3,))
 
 
