@@ -116,10 +116,11 @@ def test_column():
 def test_tension():
     for shape, least in (("gimp", 2.0), ("quadratic", 2.0), ("cubic", 2.0), ("gimp fixed", 1.9)):
         found = cases.tension(4, shape, stretch=2.2)
-        scenes.report(found["stretch"] >= least and found["force"] < 0.02,
+        force = math.inf if found["force"] is None else found["force"]
+        scenes.report(found["stretch"] >= least and force < 0.02,
                       f"tension, {shape}, 4 points a cell: holds to a stretch of "
                       f"{found['stretch']:.2f} (at least {least}), force off by "
-                      f"{100 * found['force']:.2f} % (at most 2 %)")
+                      f"{100 * force:.2f} % (at most 2 %)")
 
 
 def test_conservation():
@@ -133,9 +134,7 @@ def test_conservation():
                               f"free flight, {shape}, {transfer}, {order}: stops (linear only)",
                               [failed])
                 continue
-            # pic with linear and usl loses what light nodes are held back by
-            if not (shape, order) == ("linear", "usl") or transfer in ("flip", "xpic 5"):
-                momentum = max(momentum, abs(found["momentum"]))
+            momentum = max(momentum, abs(found["momentum"]))
             residual = max(residual, found["residual"])
         scenes.below(f"free flight, {shape}: change of momentum", momentum, 1e-13)
         scenes.below(f"free flight, {shape}: ledger", residual, 1e-12)
