@@ -22,7 +22,7 @@ size_t set_material(const struct gamut_set *set)
 /* Slots for so many points and the padding that blocks of a usual size need. */
 static size_t with_padding(size_t points)
 {
-  return (points + points / 64 + 2 * GAMUT_LANES - 1) / GAMUT_LANES * GAMUT_LANES;
+  return (points + points / 128 + 2 * GAMUT_LANES - 1) / GAMUT_LANES * GAMUT_LANES;
 }
 
 struct point_set *set_new(struct arena *arena, const char *body, size_t index, size_t material,
@@ -132,21 +132,25 @@ static bool longer(struct point_set *set, const char *label, size_t offset, size
   return true;
 }
 
-/* Room for more slots: padding may need more than the points did at first. Array by array, so that
- * there are never two of all. */
+/* Room for more slots: padding may need more than the points did at first. Array by array, and with
+ * the spare one out of the way, so that this takes no more memory than there is before. */
 static gamut_status grow(struct point_set *set, size_t slots, struct trace *trace)
 {
   size_t kept = set->open.slots > set->open.points ? set->open.slots : set->open.points;
   double *id = (double *)(void *)set->id;
   set->capacity = with_padding(slots);
-  bool good = longer(set, "spare array for sorting", 0, 0, &set->spare) &&
-              longer(set, "point ids", 0, kept, &id);
+  arena_give(set->arena, set->spare);
+  set->spare = NULL;
+  bool good = longer(set, "point ids", 0, kept, &id);
   set->id = (int64_t *)(void *)id;
   for (size_t k = 0; good && k < fields_components(set->fields); k++)
     if (set->array[k])
       good = longer(set, fields_of_component(set->fields, k)->name, STAGGER * (k % STAGGERS), kept,
                     &set->array[k]);
-  return good ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  if (good)
+    set->spare = arena_take(set->arena, "spare array for sorting",
+                            (set->capacity + SLACK) * sizeof *set->spare);
+  return good && set->spare ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
 }
 
 /* Piece by piece an array goes into the spare one and leaves its own memory as the next one's

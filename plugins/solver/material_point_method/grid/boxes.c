@@ -72,7 +72,7 @@ gamut_status grid_forget_boxes(struct grid *g)
   g->box_used = 0;
   if (used <= g->box_capacity)
     return GAMUT_OK;
-  return new_pool(g, used + used / 16);
+  return new_pool(g, used + used / 64);
 }
 
 /* Room for a box of so many nodes. */

@@ -326,7 +326,7 @@ static gamut_status sort_sets(struct model *m, const struct sorting *s, struct p
 static gamut_status room_for_sums(struct model *m)
 {
   if (m->grid.sources > m->block_capacity) {
-    const size_t capacity = m->grid.sources + m->grid.sources / 2 + 16;
+    const size_t capacity = m->grid.sources + m->grid.sources / 8 + 16;
     gamut_release(m->run, m->block_sum);
     gamut_release(m->run, m->block_most);
     m->block_sum = gamut_allocate(m->run, "sums", capacity * POINT_SUMS * sizeof *m->block_sum);
@@ -336,7 +336,7 @@ static gamut_status room_for_sums(struct model *m)
       return GAMUT_INTERNAL;
   }
   if (m->grid.blocks > m->node_capacity) {
-    const size_t capacity = m->grid.blocks + m->grid.blocks / 2 + 16;
+    const size_t capacity = m->grid.blocks + m->grid.blocks / 8 + 16;
     gamut_release(m->run, m->node_sum);
     m->node_sum = gamut_allocate(m->run, "sums", capacity * sizeof *m->node_sum);
     m->node_capacity = m->node_sum != NULL ? capacity : 0;

@@ -110,7 +110,7 @@ static gamut_status room(struct model *m, void **array, size_t item, size_t used
 {
   if (used < *capacity)
     return GAMUT_OK;
-  const size_t wanted = used + used / 4 + 64;
+  const size_t wanted = used + used / 8 + 64;
   void *larger = gamut_allocate(m->run, "planes", wanted * item);
   if (larger == NULL)
     return GAMUT_INTERNAL;
