@@ -63,7 +63,7 @@ struct point_set {
   size_t *first;
   size_t blocks_capacity;
   double **array;     /* one a component: stored array or null */
-  double *spare;      /* for arrange */
+  double *spare;      /* only while points are rearranged */
   int threads;        /* that arrange may use; 0 and 1: no others */
   size_t material;
 };

@@ -85,8 +85,7 @@ static gamut_status take_all(struct point_set *set, struct trace *trace)
   bool room = arena_has_room(set->arena, bytes_wanted(set));
   set->array = calloc(components ? components : 1, sizeof *set->array);
   set->id = room ? arena_take(set->arena, "point ids", bytes) : NULL;
-  set->spare = room ? arena_take(set->arena, "spare array for sorting", bytes) : NULL;
-  bool good = set->array && set->id && set->spare;
+  bool good = set->array && set->id;
   for (size_t i = 0; good && i < fields_count(set->fields); i++) {
     const struct field *field = fields_at(set->fields, i);
     for (unsigned k = 0; good && field->stored && k < field->handle.components; k++) {
@@ -132,25 +131,20 @@ static bool longer(struct point_set *set, const char *label, size_t offset, size
   return true;
 }
 
-/* Room for more slots: padding may need more than the points did at first. Array by array, and with
- * the spare one out of the way, so that this takes no more memory than there is before. */
+/* Room for more slots: padding may need more than the points did at first. Array by array, so that
+ * there are never two of all. */
 static gamut_status grow(struct point_set *set, size_t slots, struct trace *trace)
 {
   size_t kept = set->open.slots > set->open.points ? set->open.slots : set->open.points;
   double *id = (double *)(void *)set->id;
   set->capacity = with_padding(slots);
-  arena_give(set->arena, set->spare);
-  set->spare = NULL;
   bool good = longer(set, "point ids", 0, kept, &id);
   set->id = (int64_t *)(void *)id;
   for (size_t k = 0; good && k < fields_components(set->fields); k++)
     if (set->array[k])
       good = longer(set, fields_of_component(set->fields, k)->name, STAGGER * (k % STAGGERS), kept,
                     &set->array[k]);
-  if (good)
-    set->spare = arena_take(set->arena, "spare array for sorting",
-                            (set->capacity + SLACK) * sizeof *set->spare);
-  return good && set->spare ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  return good ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
 }
 
 /* Piece by piece an array goes into the spare one and leaves its own memory as the next one's
@@ -208,7 +202,13 @@ gamut_status set_arrange(struct point_set *set, const uint32_t *source, size_t s
   gamut_status status = GAMUT_OK;
   if (slots > set->capacity)
     TRY(grow(set, slots, trace));
+  set->spare = arena_take(set->arena, "spare array for sorting",
+                          (set->capacity + SLACK) * sizeof *set->spare);
+  if (!set->spare)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   permute(set, source, slots);
+  arena_give(set->arena, set->spare);
+  set->spare = NULL;
   const struct field *mass = fields_find(set->fields, "mass");
   if (mass && mass->stored)
     for (size_t i = 0; i < slots; i++)

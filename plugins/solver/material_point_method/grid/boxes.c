@@ -26,6 +26,7 @@ static void drop_spills(struct grid *g)
 void boxes_destroy(struct grid *g)
 {
   drop_spills(g);
+  grid_take_back(g);
   gamut_release(g->run, g->box);
   g->box = NULL;
 }
@@ -38,30 +39,37 @@ static gamut_status new_pool(struct grid *g, size_t lines)
   return g->box != NULL ? GAMUT_OK : GAMUT_INTERNAL;
 }
 
-/* Right after a sort a full block touches side + nodes - 1 nodes along each axis. */
+/* As large as before the sort; at first, when all points are freshly sorted, a full block touches
+ * side + nodes - 1 nodes along each axis. */
 gamut_status boxes_create(struct grid *g)
 {
   size_t nodes = 1;
   for (unsigned k = 0; k < g->dimension; k++)
     nodes *= (size_t)(g->side + g->nodes - 1);
-  const size_t lines = g->sources * nodes + 1;
-  return lines > g->box_capacity ? new_pool(g, lines) : GAMUT_OK;
+  return new_pool(g, g->box_before > 0 ? g->box_before : g->sources * nodes + 1);
 }
 
 void *grid_lend(struct grid *g, size_t bytes, size_t kept)
 {
-  const size_t lines = bytes / (LINE * sizeof *g->box) + 1;
   assert(g->box_used == 0 && g->spill == NULL);
-  if (lines <= g->box_capacity)
-    return g->box;
-  double *before = g->box;
-  if (kept == 0)
-    return new_pool(g, lines) == GAMUT_OK ? g->box : NULL;
-  g->box = NULL;
-  if (new_pool(g, lines) == GAMUT_OK)
-    memcpy(g->box, before, kept);
-  gamut_release(g->run, before);
-  return g->box;
+  if (g->box != NULL) {
+    gamut_release(g->run, g->box);
+    g->box_before = g->box_capacity;
+    g->box = NULL;
+    g->box_capacity = 0;
+  }
+  void *memory = gamut_allocate(g->run, "sort", bytes + 1);
+  if (memory != NULL && kept > 0)
+    memcpy(memory, g->lent, kept);
+  gamut_release(g->run, g->lent);
+  g->lent = memory;
+  return memory;
+}
+
+void grid_take_back(struct grid *g)
+{
+  gamut_release(g->run, g->lent);
+  g->lent = NULL;
 }
 
 gamut_status grid_forget_boxes(struct grid *g)

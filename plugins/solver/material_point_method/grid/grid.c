@@ -311,7 +311,7 @@ gamut_status grid_finish(struct grid *g)
 gamut_status grid_sources(struct grid *g, size_t sources)
 {
   g->sources = sources;
-  if (g->source_capacity == 0 && boxes_create(g) != GAMUT_OK)
+  if (g->box == NULL && boxes_create(g) != GAMUT_OK)
     return GAMUT_INTERNAL;
   if (sources <= g->source_capacity)
     return GAMUT_OK;

@@ -87,6 +87,8 @@ struct grid {
   struct source *source; /* in the order of chunk.serial */
   double *box;           /* pool of boxes */
   size_t box_capacity, box_used; /* in lines */
+  size_t box_before;             /* capacity before the sort */
+  void *lent;
   uint64_t box_lines;            /* of all boxes that were left so far */
   struct spill *spill;
 };
@@ -136,9 +138,10 @@ void grid_collect(const struct grid *, const struct node_block *, double *lines)
 /* After all blocks of nodes have collected: the boxes are done with. */
 gamut_status grid_forget_boxes(struct grid *);
 gamut_status boxes_create(struct grid *);
-/* Memory for other things while there are no boxes; its first `kept` bytes are those it held when
- * it was last lent. Null where there is none. */
+/* Memory for a sort, in which there are no boxes and their pool is away; its first `kept` bytes are
+ * those of what was lent before. Null where there is none. */
 void *grid_lend(struct grid *, size_t bytes, size_t kept);
+void grid_take_back(struct grid *);
 void boxes_destroy(struct grid *);
 
 #endif

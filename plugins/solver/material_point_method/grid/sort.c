@@ -11,7 +11,7 @@ static const uint32_t padding = UINT32_C(1) << 31;
 /* Below so many slots threads cost more than they give. */
 enum { FEW_SLOTS = 1 << 14, PIECE = 128, CELLS = 64 };
 
-/* What only a sort needs. It lies where boxes lie between sorts. */
+/* What only a sort needs; the boxes' memory makes room for it. */
 struct sorting {
   size_t slots, most; /* of all sets, and of the largest */
   size_t blocks;      /* of nodes, as numbered before the sort */
@@ -351,6 +351,7 @@ static gamut_status build_grid(struct model *m, const struct place *list, size_t
 {
   struct grid *g = &m->grid;
   int32_t number = -1;
+  grid_take_back(g);
   gamut_status status = grid_begin(g);
   for (size_t i = 0; i < sources && status == GAMUT_OK; i++)
     status = grid_block(g, list[i].at, &number);
