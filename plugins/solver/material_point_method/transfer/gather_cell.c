@@ -1,7 +1,6 @@
 /* Gathering in three dimensions by cell: the lanes of a vector are points that follow each other in
  * one cell, so that they share its nodes. */
-#include "transfer/line.h"
-#include "transfer/shapes.h"
+#include "transfer/formulas.h"
 #include "transfer/transfer.h"
 
 /* Lanes beyond the cell's points may be written where the next cell overwrites them; beyond the
@@ -75,52 +74,10 @@ static void gather_gradient_linear(struct work *w, size_t count, double inverse_
   linear_gather(w, count, 0, inverse_cell, gradient);
 }
 
-INLINE void weights_quadratic(const double *place, const double *reach, double scale,
-                              vector weight[NODES_MAX], vector slope[NODES_MAX])
-{
-  (void)reach;
-  const vector x = vector_read(place), y = 1.0 - x;
-  weight[0] = 0.5 * y * y;
-  weight[1] = 0.5 + x * y;
-  weight[2] = 0.5 * x * x;
-  slope[0] = -y * scale;
-  slope[1] = (y - x) * scale;
-  slope[2] = x * scale;
-}
-
-INLINE void weights_gimp(const double *place, const double *reach, double scale,
-                         vector weight[NODES_MAX], vector slope[NODES_MAX])
-{
-  const vector none = {0}, d = vector_read(place) - 0.5, r = vector_read(reach), over = 0.5 / r;
-  const vector c = vector_higher(vector_lower(d, r), -r), up = r + c, down = r - c;
-  weight[2] = 0.5 * over * up * up + vector_higher(d - c, none);
-  weight[0] = 0.5 * over * down * down + vector_higher(c - d, none);
-  weight[1] = 1.0 - weight[0] - weight[2];
-  slope[0] = -over * down * scale;
-  slope[1] = -2.0 * over * c * scale;
-  slope[2] = over * up * scale;
-}
-
-INLINE void weights_cubic(const double *place, const double *reach, double scale,
-                          vector weight[NODES_MAX], vector slope[NODES_MAX])
-{
-  (void)reach;
-  const vector a = vector_read(place), b = 1.0 - a, aa = a * a, bb = b * b;
-  const double third = 1.0 / 3.0, sixth = 1.0 / 6.0;
-  weight[0] = sixth * bb * b;
-  weight[1] = 2.0 * third - aa + 0.5 * aa * a;
-  weight[2] = 2.0 * third - bb + 0.5 * bb * b;
-  weight[3] = sixth * aa * a;
-  slope[0] = -0.5 * bb * scale;
-  slope[1] = (1.5 * aa - 2.0 * a) * scale;
-  slope[2] = (2.0 * b - 1.5 * bb) * scale;
-  slope[3] = 0.5 * aa * scale;
-}
-
 INLINE void weights_of(enum shape shape, const struct work *w, int k, size_t p, double scale,
                        vector weight[NODES_MAX], vector slope[NODES_MAX])
 {
-  const double *place = w->place[k] + p, *reach = w->reach[k] + p;
+  const vector place = vector_read(w->place[k] + p), reach = vector_read(w->reach[k] + p);
   if (shape == SHAPE_GIMP)
     weights_gimp(place, reach, scale, weight, slope);
   else if (shape == SHAPE_QUADRATIC)

@@ -3,8 +3,7 @@
 
 #include <string.h>
 
-#include "transfer/line.h"
-#include "transfer/shapes.h"
+#include "transfer/formulas.h"
 
 #define SHAPE gimp
 #define DIMENSION 1
