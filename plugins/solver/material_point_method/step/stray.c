@@ -17,22 +17,31 @@ struct locate locate_in(const struct model *m, size_t serial, const double *cons
   return l;
 }
 
+static bool within_tile(const struct model *m, const struct locate *l, double x, unsigned axis)
+{
+  const double at = x * l->inverse_cell - l->origin[axis];
+  return at >= 0.0 && at < m->grid.side + 2;
+}
+
+static const char *why_outside(double x, double v)
+{
+  return isfinite(x) && isfinite(v)
+             ? "it went farther than a cell in a step or two: the time step is too long or the run "
+               "is unstable"
+             : "its position or velocity is not a number: the time step is too long or the "
+               "material failed";
+}
+
 gamut_status find_stray(const struct model *m, const struct gamut_set *set, size_t slot,
                         const struct locate *l, const double *const x[3], const double *const v[3])
 {
   for (size_t i = 0; i < l->count; i++)
     for (unsigned k = 0; k < m->dimension; k++) {
-      const double at = x[k][i] * l->inverse_cell - l->origin[k];
-      if (at >= 0.0 && at < m->grid.side + 2)
+      if (within_tile(m, l, x[k][i], k))
         continue;
       const double place[3] = {x[0][i], x[1][i], x[2][i]}, speed[3] = {v[0][i], v[1][i], v[2][i]};
-      return point_failed(
-          (struct model *)m, set, slot + i, place, speed,
-          isfinite(x[k][i]) && isfinite(v[k][i])
-              ? "it went farther than a cell in a step or two: the time step is too "
-                "long or the run is unstable"
-              : "its position or velocity is not a number: the time step is too long "
-                "or the material failed");
+      return point_failed((struct model *)m, set, slot + i, place, speed,
+                          why_outside(x[k][i], v[k][i]));
     }
   return gamut_fail(m->run, GAMUT_INTERNAL, "a point left its block, but none is outside");
 }
@@ -60,15 +69,9 @@ gamut_status stray_outside_tile(struct model *m, const struct gamut_set *set, si
   bool any = false;
   for (size_t i = 0; i < l->count; i++)
     for (unsigned k = 0; k < m->dimension && set->id[slot + i] >= 0; k++) {
-      const double at = x[k][i] * l->inverse_cell - l->origin[k];
-      if (at >= 0.0 && at < m->grid.side + 2)
+      if (within_tile(m, l, x[k][i], k))
         continue;
-      stray_note(m, set, slot + i,
-                 isfinite(x[k][i]) && isfinite(v[k][i])
-                     ? "it went farther than a cell in a step or two: the time step is too "
-                       "long or the run is unstable"
-                     : "its position or velocity is not a number: the time step is too long "
-                       "or the material failed");
+      stray_note(m, set, slot + i, why_outside(x[k][i], v[k][i]));
       any = true;
       break;
     }
