@@ -296,6 +296,46 @@ static void prove_order(struct path *path)
                 "order of convergence when the step is halved (last change %.1e)", fine);
 }
 
+static bool provides(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->provisions; i++)
+    if (strcmp(d->provide[i], name) == 0)
+      return true;
+  return false;
+}
+
+static double mean_stress(const struct path *path)
+{
+  return (*value_of(path, path->stress) + *value_of(path, path->stress + 1) +
+          *value_of(path, path->stress + 2)) /
+         3;
+}
+
+/* An effect halves the deviator between two steps; the next one must begin with that. */
+static void prove_imposed(struct path *path)
+{
+  const struct proof *proof = path->suite->proof;
+  double worst = 0, scale = 0, due[6];
+  if (!provides(proof->descriptor, "imposed_stress"))
+    return;
+  check_begin(&path->suite->proof->checks, "imposed stress");
+  follow(path, 64, false, unity, 0);
+  const double before = mean_stress(path);
+  for (size_t k = 0; k < 6; k++) {
+    due[k] = 0.5 * (*value_of(path, path->stress + k) - (k < 3 ? before : 0));
+    *value_of(path, path->stress - 6 + k) -= due[k];
+  }
+  path_step(path, unity, duration);
+  const double after = mean_stress(path);
+  for (size_t k = 0; k < 6; k++) {
+    worst = fmax(worst, fabs(*value_of(path, path->stress + k) - (k < 3 ? after : 0) - due[k]));
+    scale = fmax(scale, fabs(due[k]));
+  }
+  check_figure(&path->suite->proof->checks, worst / fmax(scale, 1e-300), 1e-9,
+               "a deviator that an effect has halved is halved after a step without motion, "
+               "relative");
+}
+
 void prove_elasticity(struct proof *proof)
 {
   struct suite suite;
@@ -309,6 +349,7 @@ void prove_elasticity(struct proof *proof)
       prove_dissipation(&path);
       prove_volume(&path);
       prove_order(&path);
+      prove_imposed(&path);
     }
   }
   suite_free(&suite);

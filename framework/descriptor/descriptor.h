@@ -43,7 +43,8 @@
  *   body_parameters:, material_parameters:   like parameters: keys that this plugin adds to every
  *                                      body (solver) or material (effects, elasticity)
  *   requires: [plane]                  names in somebody's `provides`
- *   provides: [plane, points]
+ *   provides: [plane, points]          an elasticity: imposed_stress, where its step begins with the
+ *                                      deviator of `stress`, so that effects may set it
  *   phases: [..]                       solver
  *   axis: {name: time, unit: s}        solver
  *   measures:                          what a quantity can be

@@ -265,6 +265,7 @@ static gamut_status assemble(struct gamut_run *run)
   TRY(observe_create(run));
   TRY(frames_create(run));
   TRY(schedule_plan(run->schedule, run->fields, run->scene->bodies, run->trace));
+  TRY(effects_check(run));
   TRY(effects_resolve(run));
   TRY(allocate_all(run));
 done:

@@ -44,11 +44,62 @@ def skeleton(kind, scratch):
            again)
 
 
+# A body that is pulled beyond what it bears, of an elasticity whose stress follows from a state of
+# its own.
+TORN = """gamut: 1
+solver: {{model: material_point_method, geometry: 1d, cell: 0.2 mm, end: 1 us}}
+materials:
+  own: {{density: 8000 kg/m3, eos: {{model: linear, bulk_modulus: 140 GPa}},
+        elasticity: {{model: my_elasticity, bulk_modulus: 140 GPa, shear_modulus: 48 GPa}}}}
+  metal: {{density: 8000 kg/m3, eos: {{model: linear, bulk_modulus: 140 GPa}},
+          elasticity: {{model: hypoelastic, shear_modulus: 48 GPa}}}}
+bodies:
+  left: {{material: own, shape: {{box: {{min: [-4 mm], max: [-1 mm]}}}}}}
+  right: {{material: metal, velocity: ["100 * x"], shape: {{box: {{min: [0 mm], max: [4 mm]}}}}}}
+effects: {{torn: {{{effect}}}}}
+"""
+IMPOSING = [("spall on every body", "model: spall, limit: 1 GPa", 3),
+            ("spall on bodies: [left]", "model: spall, limit: 1 GPa, bodies: [left]", 3),
+            ("cutoff on materials: [own]",
+             "model: spall, limit: 1 GPa, mode: cutoff, materials: [own]", 3),
+            ("spall on the other body", "model: spall, limit: 1 GPa, bodies: [right]", 0),
+            ("spall that is off", "model: spall, limit: 1 GPa, enabled: off", 0)]
+
+
+def imposed_stress(scratch):
+    scene = os.path.join(scratch, "torn.yaml")
+    for what, effect, due in IMPOSING:
+        with open(scene, "w", encoding="utf-8") as file:
+            file.write(TORN.format(effect=effect))
+        for command in ("check", "run"):
+            options = ["-o", os.path.join(scratch, "torn"), "--force"] if command == "run" else []
+            answer = gamut("--plugin-path", scratch, command, scene, *options, cwd=scratch)
+            told = "elasticity/my_elasticity" in answer.said and "'torn'" in answer.said
+            report(answer.code == due and told == (due != 0),
+                   f"{command}, an elasticity that takes no stress up: {what}: exit {due}", answer)
+
+
+def false_promise(scratch):
+    folder = os.path.join(scratch, "elasticity", "my_elasticity")
+    file = os.path.join(folder, "my_elasticity.yaml")
+    with open(file, encoding="utf-8") as text:
+        honest = text.read()
+    with open(file, "w", encoding="utf-8") as text:
+        text.write(honest + "provides: [imposed_stress]\n")
+    answer = gamut("verify", folder)
+    report(answer.code == 4 and "an effect has halved" in answer.out,
+           "verify finds an elasticity that promises to take a stress up and does not", answer)
+    with open(file, "w", encoding="utf-8") as text:
+        text.write(honest)
+
+
 def main():
     with tempfile.TemporaryDirectory() as scratch:
         os.chmod(scratch, 0o755)
         for kind in KINDS:
             skeleton(kind, scratch)
+        imposed_stress(scratch)
+        false_promise(scratch)
         scene = os.path.join(scratch, "scene.yaml")
         with open(scene, "w", encoding="utf-8") as file:
             file.write(SCENE)
