@@ -19,17 +19,28 @@ static void on_signal(int number)
   interrupted = number;
 }
 
+static void catch_one(int number, int flags)
+{
+  struct sigaction action = {.sa_handler = on_signal, .sa_flags = flags}, now;
+  sigemptyset(&action.sa_mask);
+  /* What whoever started us had ignored stays so: HUP under nohup. */
+  if (sigaction(number, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
+    sigaction(number, &action, NULL);
+}
+
 static void catch_signals(void)
 {
-  struct sigaction action = {.sa_handler = on_signal};
-  action.sa_flags = (int)SA_RESETHAND; /* a second Ctrl-C ends at once */
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, NULL);
-  sigaction(SIGTERM, &action, NULL);
-  /* The terminal was closed; nohup has it ignored, and so it stays. */
-  struct sigaction now;
-  if (sigaction(SIGHUP, NULL, &now) == 0 && now.sa_handler != SIG_IGN)
-    sigaction(SIGHUP, &action, NULL);
+  /* Batch systems announce the end of a job by one of these, some more than once. */
+  static const int batch[] = {SIGUSR1, SIGUSR2, SIGXCPU};
+  /* A shell without job control has INT ignored in what it starts in the background: these two
+   * mean us, always. */
+  signal(SIGINT, SIG_DFL);
+  signal(SIGTERM, SIG_DFL);
+  catch_one(SIGINT, (int)SA_RESETHAND); /* a second Ctrl-C ends at once */
+  catch_one(SIGTERM, (int)SA_RESETHAND);
+  catch_one(SIGHUP, (int)SA_RESETHAND); /* the terminal was closed */
+  for (size_t i = 0; i < sizeof batch / sizeof batch[0]; i++)
+    catch_one(batch[i], 0);
   /* A run of hours does not end because somebody closed a pager. */
   signal(SIGPIPE, SIG_IGN);
 }
@@ -152,6 +163,7 @@ static gamut_status run_scene(struct command *command, const struct run_argument
   options.progress = progress_tell;
   options.progress_self = progress;
   TRY(run_new(scene, command->registry, &options, command->trace, &run));
+  catch_signals();
   /* A batch job says --resume each time, also the first. */
   if (arguments->resume && store_there(arguments->folder)) {
     TRY(run_resume(run, arguments->folder, command->trace, &store));
@@ -167,7 +179,6 @@ static gamut_status run_scene(struct command *command, const struct run_argument
   run_record(run, store);
   TRY(store_scene(store, scene->tree, command->trace));
   trace_print(command->trace, stderr);
-  catch_signals();
   marched = run_march(run, command->trace);
   run_warn(run, command->trace);
   progress_free(progress);

@@ -144,6 +144,7 @@ int main(int argc, char **argv)
     return GAMUT_INTERNAL;
   }
   signal(SIGPIPE, SIG_DFL);
+  signal(SIGXFSZ, SIG_IGN); /* the write then fails, and is told as any other */
   gsl_set_error_handler_off();
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   gamut_status status = dispatch(argc, argv, trace);
