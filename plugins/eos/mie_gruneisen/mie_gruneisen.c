@@ -2,6 +2,7 @@
 
 static const double guard = 0.05; /* the least D at which the Hugoniot is used */
 static const double close = 0.1;  /* D below this is noted */
+static const double unlimited = -1e300; /* Pa, the tension_limit where none is stated */
 
 /* Coefficients at a point. S2 = S3 = 0 and known to be so where `curved` is false, a constant at
  * each call: the same bits in fewer operations. */
@@ -54,20 +55,24 @@ GAMUT_INLINE double cold(const struct hugoniot *h, double mu, double D, double D
   return mu * N / square;
 }
 
-/* Writes what follows from the law's pressure and slope. */
+/* Writes what follows from the law's pressure and slope. Between zero pressure and a stated limit
+ * the part p G / (1 + mu)^2 is left out: as matter opens it takes any sound speed away, while the
+ * limit says that the law holds there. What is left is the slope that the cut-off has. */
 GAMUT_INLINE void finish(const struct mie_gruneisen *b, size_t i, double pressure, double slope)
 {
   double mu = b->compression[i], ratio = 1.0 + mu;
   double gamma = b->gamma0[i] + b->a[i] * mu, limit = b->tension_limit[i];
-  bool cut = pressure < limit;
+  bool cut = pressure < limit, limited = limit > unlimited;
   double p = cut ? limit : pressure;
-  double square = slope + (cut ? 0.0 : p * gamma / (ratio * ratio));
+  bool held = limited && p < 0.0;
+  double square = slope + (cut || held ? 0.0 : p * gamma / (ratio * ratio));
   b->pressure[i] = p;
   b->pressure_slope_compression[i] = cut ? 0.0 : slope;
   b->pressure_slope_energy[i] = cut ? 0.0 : gamma;
   b->sound_speed[i] = sqrt((square <= 0.0 ? 0.0 : square) / b->reference_density[i]);
   GAMUT_FLAG(b, i, cut, MIE_GRUNEISEN_AT_TENSION_LIMIT);
   GAMUT_FLAG(b, i, square <= 0.0, MIE_GRUNEISEN_NO_SOUND_SPEED);
+  GAMUT_FLAG(b, i, square <= 0.0 && p < 0.0 && !limited, MIE_GRUNEISEN_PULLED_BEYOND);
   GAMUT_FLAG(b, i, p != p, MIE_GRUNEISEN_NOT_FINITE);
   GAMUT_FLAG(b, i, ratio <= 0.0, MIE_GRUNEISEN_VACUUM);
 }
