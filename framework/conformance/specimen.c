@@ -234,16 +234,3 @@ bool slot_is_output(const struct slot *slot)
 {
   return slot->kind == SLOT_OUTPUT || slot->kind == SLOT_STATE_END;
 }
-
-enum gamut_severity status_severity(int64_t status)
-{
-  return (enum gamut_severity)(status / 256);
-}
-
-const struct message *status_message(const struct descriptor *descriptor, int64_t status)
-{
-  int64_t index = status % 256;
-  if (status == 0 || index < 0 || (size_t)index >= descriptor->messages)
-    return NULL;
-  return &descriptor->message[index];
-}

@@ -56,9 +56,5 @@ char *slot_label(const struct slot *, char *buffer, size_t size);
 bool slot_is_input(const struct slot *);
 /* Whether a kernel must write it. */
 bool slot_is_output(const struct slot *);
-/* The message of a status word, or null. */
-const struct message *status_message(const struct descriptor *, int64_t status);
-/* Severity of a status word. */
-enum gamut_severity status_severity(int64_t status);
 
 #endif

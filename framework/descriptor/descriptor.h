@@ -44,7 +44,9 @@
  *                                      body (solver) or material (effects, elasticity)
  *   requires: [plane]                  names in somebody's `provides`
  *   provides: [plane, points]          an elasticity: imposed_stress, where its step begins with the
- *                                      deviator of `stress`, so that effects may set it
+ *                                      deviator of `stress`, so that effects may set it; an
+ *                                      effect: opened_matter, where the eos will be asked for
+ *                                      matter that is pulled apart
  *   phases: [..]                       solver
  *   axis: {name: time, unit: s}        solver
  *   measures:                          what a quantity can be

@@ -224,3 +224,16 @@ const char *kernel_variant(const struct kernel *kernel)
 {
   return kernel->variant;
 }
+
+enum gamut_severity status_severity(int64_t status)
+{
+  return (enum gamut_severity)(status / 256);
+}
+
+const struct message *status_message(const struct descriptor *descriptor, int64_t status)
+{
+  int64_t index = status % 256;
+  if (status == 0 || index < 0 || (size_t)index >= descriptor->messages)
+    return NULL;
+  return &descriptor->message[index];
+}

@@ -31,6 +31,9 @@ const char *kernel_variant(const struct kernel *);
 kernel_function kernel_operation(const struct kernel *, size_t number);
 /* Operation of a task or variant by its name. */
 kernel_function kernel_named(const struct kernel *, const char *name);
+/* The message of a point's status word, or null; and its severity (GAMUT_FINE for 0). */
+const struct message *status_message(const struct descriptor *, int64_t status);
+enum gamut_severity status_severity(int64_t status);
 
 /* One kernel alone: eval and conformance. */
 

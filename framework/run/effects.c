@@ -132,56 +132,6 @@ gamut_status effects_resolve(struct gamut_run *run)
   return GAMUT_OK;
 }
 
-/* Sets or adds to the stress. */
-static bool imposes_stress(const struct task *task, const char *owner)
-{
-  bool writes = false;
-  for (size_t u = 0; u < task->uses; u++)
-    writes |= strcmp(task->use[u].field->name, "stress") == 0 &&
-              (task->use[u].access == GAMUT_WRITE || task->use[u].access == GAMUT_ADD);
-  return task->live && writes && strcmp(task->owner, owner) == 0;
-}
-
-static bool takes_stress_up(const struct descriptor *elasticity)
-{
-  for (size_t i = 0; i < elasticity->provisions; i++)
-    if (strcmp(elasticity->provide[i], "imposed_stress") == 0)
-      return true;
-  return false;
-}
-
-/* A stress that is set behind the back of an elasticity which works it out anew from other states
- * would act on the motion for one step and leave the strain energy as it was: energy from nowhere.
- */
-static gamut_status check_imposed(const struct gamut_run *run, const struct running_effect *effect)
-{
-  const struct instance *asked = &effect->effect->instance;
-  for (size_t b = 0; b < run->scene->bodies; b++) {
-    const struct material *material = &run->scene->material[run->scene->body[b].material];
-    const struct descriptor *elasticity = material->elasticity.descriptor;
-    if (effect->effect->on_body[b] && elasticity && !takes_stress_up(elasticity))
-      return trace_fail_at(
-          run->trace, GAMUT_SCENE, asked->node ? &asked->node->place : NULL, asked->name,
-          "another elasticity, or `bodies:` without this one",
-          "effect '%s' (%s) sets the stress, but %s of material '%s' (body '%s') takes no stress "
-          "from elsewhere: it does not provide 'imposed_stress'",
-          asked->name, asked->descriptor->id, elasticity->id, material->name,
-          run->scene->body[b].name);
-  }
-  return GAMUT_OK;
-}
-
-gamut_status effects_check(struct gamut_run *run)
-{
-  gamut_status status = GAMUT_OK;
-  for (size_t e = 0; e < run->effects; e++)
-    for (size_t i = 0; i < schedule_tasks(run->schedule); i++)
-      if (imposes_stress(schedule_task(run->schedule, i), run->effect[e].label))
-        TRY(check_imposed(run, &run->effect[e]));
-done:
-  return status;
-}
-
 void effects_free(struct gamut_run *run)
 {
   for (size_t i = 0; i < run->effects; i++) {

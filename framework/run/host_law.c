@@ -158,7 +158,6 @@ bool host_law_call(struct gamut_law *law, const char *operation, size_t count, i
 
 const char *host_law_message(const struct gamut_law *law, int64_t word)
 {
-  const struct descriptor *d = kernel_descriptor(law->kernel);
-  size_t index = (size_t)(word % 256);
-  return word > 0 && index < d->messages ? d->message[index].text : "";
+  const struct message *message = status_message(kernel_descriptor(law->kernel), word);
+  return message ? message->text : "";
 }

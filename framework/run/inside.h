@@ -172,9 +172,10 @@ void removal_warn(const struct gamut_run *, struct trace *);
 /* effects.c */
 gamut_status effects_create(struct gamut_run *);
 void effects_free(struct gamut_run *);
-/* After the plan: an effect that sets the stress needs elasticities that take it up. */
-gamut_status effects_check(struct gamut_run *);
 gamut_status effects_resolve(struct gamut_run *);
+/* effects_check.c; after the plan: an effect that sets the stress needs elasticities that take it
+ * up; one that opens matter is warned of where the eos stops there. */
+gamut_status effects_check(struct gamut_run *);
 /* Fields for the states of a plugin whose tasks are its own, not the descriptor's. */
 gamut_status declare_states(struct gamut_run *, const struct descriptor *);
 

@@ -1,0 +1,135 @@
+/* Effects against the materials of the bodies that they work on: what a plan can know. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "run/inside.h"
+
+/* Sets or adds to the stress. */
+static bool imposes_stress(const struct task *task, const char *owner)
+{
+  bool writes = false;
+  for (size_t u = 0; u < task->uses; u++)
+    writes |= strcmp(task->use[u].field->name, "stress") == 0 &&
+              (task->use[u].access == GAMUT_WRITE || task->use[u].access == GAMUT_ADD);
+  return task->live && writes && strcmp(task->owner, owner) == 0;
+}
+
+static bool provides(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->provisions; i++)
+    if (strcmp(d->provide[i], name) == 0)
+      return true;
+  return false;
+}
+
+/* A stress that is set behind the back of an elasticity which works it out anew from other states
+ * would act on the motion for one step and leave the strain energy as it was: energy from nowhere.
+ */
+static gamut_status check_imposed(const struct gamut_run *run, const struct running_effect *effect)
+{
+  const struct instance *asked = &effect->effect->instance;
+  char path[256] = "";
+  for (size_t b = 0; b < run->scene->bodies; b++) {
+    const struct material *material = &run->scene->material[run->scene->body[b].material];
+    const struct descriptor *elasticity = material->elasticity.descriptor;
+    if (effect->effect->on_body[b] && elasticity && !provides(elasticity, "imposed_stress"))
+      return trace_fail_at(
+          run->trace, GAMUT_SCENE, asked->node ? &asked->node->place : NULL,
+          asked->node ? tree_path(asked->node, path, sizeof path) : NULL,
+          "another elasticity, or `bodies:` without this one",
+          "effect '%s' (%s) sets the stress, but %s of material '%s' (body '%s') takes no stress "
+          "from elsewhere: it does not provide 'imposed_stress'",
+          asked->name, asked->descriptor->id, elasticity->id, material->name,
+          run->scene->body[b].name);
+  }
+  return GAMUT_OK;
+}
+
+/* Calls the eos for matter that is pulled apart, up to ten times its volume, without energy. `word`
+ * is the worst status. */
+static gamut_status ask_opened(struct gamut_run *run, const struct material *material,
+                               int64_t *word, double *compression)
+{
+  gamut_status status;
+  struct kernel *eos = NULL;
+  struct bench *bench = NULL;
+  enum { STATES = GAMUT_LANES };
+  TRY(kernel_new(&material->eos, run->registry, run->arena, STATES, material->extra,
+                 material->density, run->trace, &eos));
+  TRY(bench_new(eos, NULL, NULL, STATES, run->trace, &bench));
+  double *mu = bench_array(bench, "compression"), *energy = bench_array(bench, "energy");
+  double *density = bench_array(bench, "reference_density");
+  for (int i = 0; i < STATES; i++) {
+    if (mu)
+      mu[i] = -0.9 * (i + 1) / STATES;
+    if (energy)
+      energy[i] = 0.0;
+    if (density)
+      density[i] = material->density;
+  }
+  bench_call(bench, kernel_operation(eos, 0), STATES);
+  *word = 0;
+  for (int i = STATES - 1; mu && i >= 0; i--)
+    if (bench_status(bench)[i] >= *word) {
+      *word = bench_status(bench)[i];
+      *compression = mu[i];
+    }
+done:
+  bench_free(bench);
+  kernel_free(eos);
+  return status;
+}
+
+/* Matter that an effect opens is still handed to its eos, which may have no answer there. */
+static gamut_status check_opened(struct gamut_run *run, const struct running_effect *effect,
+                                 bool *told)
+{
+  gamut_status status = GAMUT_OK;
+  const struct instance *asked = &effect->effect->instance;
+  for (size_t b = 0; b < run->scene->bodies; b++) {
+    const size_t m = run->scene->body[b].material;
+    const struct material *material = &run->scene->material[m];
+    const struct descriptor *eos = material->eos.descriptor;
+    int64_t word = 0;
+    double mu = 0.0;
+    char path[256] = "";
+    if (told[m] || !effect->effect->on_body[b] || !eos)
+      continue;
+    TRY(ask_opened(run, material, &word, &mu));
+    told[m] = true;
+    if (status_severity(word) != GAMUT_STOP)
+      continue;
+    const struct message *message = status_message(eos, word);
+    trace_warn_at(run->trace, asked->node ? &asked->node->place : NULL,
+                  asked->node ? tree_path(asked->node, path, sizeof path) : NULL, NULL,
+                  "effect '%s' (%s) lets matter open, but %s of material '%s' stops a run in opened "
+                  "matter (at compression %.3g: %s)",
+                  asked->name, asked->descriptor->id, eos->id, material->name, mu,
+                  message ? message->text : "no message");
+  }
+done:
+  return status;
+}
+
+gamut_status effects_check(struct gamut_run *run)
+{
+  gamut_status status = GAMUT_OK;
+  bool *told = calloc(run->scene->materials + 1, sizeof *told);
+  if (!told)
+    return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t e = 0; e < run->effects; e++) {
+    struct running_effect *effect = &run->effect[e];
+    bool live = false;
+    for (size_t i = 0; i < schedule_tasks(run->schedule); i++) {
+      const struct task *task = schedule_task(run->schedule, i);
+      live |= task->live && strcmp(task->owner, effect->label) == 0;
+      if (imposes_stress(task, effect->label))
+        TRY(check_imposed(run, effect));
+    }
+    if (live && provides(effect->effect->instance.descriptor, "opened_matter"))
+      TRY(check_opened(run, effect, told));
+  }
+done:
+  free(told);
+  return status;
+}
