@@ -112,7 +112,7 @@ def von_mises(yield_stress, hardening_modulus=0.0):
 
 
 def drive(card, control, end, steps, history=(), final=(), adiabatic=False, temperature=298.0,
-          extra=()):
+          effects=None, extra=()):
     """Runs one point; `history` and `final` are names of fields or (measure, component)."""
     quantities = {}
     for names, when in ((history, {"every": seconds(end / steps)}), (final, {"reduce": "at end"})):
@@ -128,8 +128,9 @@ def drive(card, control, end, steps, history=(), final=(), adiabatic=False, temp
              "materials": {"metal": card},
              "bodies": {"sample": {"material": "metal", "temperature": f"{temperature!r} K"}},
              "quantities": quantities}
+    scene["effects"] = dict(effects or {})
     if adiabatic:
-        scene["effects"] = {"heat": {"model": "adiabatic_heating", "taylor_quinney": 0.9}}
+        scene["effects"]["heat"] = {"model": "adiabatic_heating", "taylor_quinney": 0.9}
     path = scenes.written("driver", json.dumps(scene, indent=1))
     result = scenes.run(path, extra=extra)
     scenes.drop(result)

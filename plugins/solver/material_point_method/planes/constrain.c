@@ -297,17 +297,20 @@ gamut_status planes_after_update(struct model *m, double step)
       double *line = touched_line(m, node->touched);
       const bool arrives =
           (p->given.unilateral || p->moves) && !p->images && places_find(p->held, node->node) < 0;
+      const bool at = plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell;
+      if (at)
+        contact_see(m, p, t);
       node->contact = line[LINE_SHARE] > (p->given.unilateral ? m->grid.empty : 0.0) &&
                       hold(p, line, t->force, step, arrives);
-      if (!node->contact)
-        continue;
-      if (plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell)
+      if (node->contact && at)
         contact_add(m, p, t);
     }
   }
   for (size_t i = ps->count; i-- > 0;) {
     struct plane *p = ps->plane[i];
     for (size_t c = 0; c < p->columns; c++) {
+      const struct touched *on = &ps->touched[p->column[c].touched[ON]];
+      contact_see(m, p, on);
       if (!p->column[c].contact)
         continue;
       double *line[3];
@@ -318,7 +321,7 @@ gamut_status planes_after_update(struct model *m, double step)
         stop_arrival(m, p, &p->column[c]);
       if (p->given.friction > 0.0)
         column_friction(m, p, &p->column[c], step);
-      contact_add(m, p, &ps->touched[p->column[c].touched[ON]]);
+      contact_add(m, p, on);
     }
   }
   if (m->limited)

@@ -56,7 +56,8 @@ struct plane {
   bool odd[3];   /* by component: the velocity's difference from the plane's turns its sign */
   int32_t level; /* node number of the plane along its axis */
   double impulse[3], area;
-  double contact_mass, densest; /* of nodes in contact: mass, largest mass an area */
+  double contact_mass, axis_area; /* of nodes in contact: mass, area of the axis of revolution */
+  double densest;                 /* of all its nodes: largest mass an area */
   struct column *column;
   size_t columns, column_capacity;
   struct held_node *node; /* with the condition node by node */
@@ -92,6 +93,7 @@ void planes_after_second(struct model *);
 gamut_status planes_book(struct model *, double step);
 /* reaction.c: the area in contact, begun anew in each step, by the nodes that are. */
 void contact_begin(struct plane *);
+void contact_see(const struct model *, struct plane *, const struct touched *);
 void contact_add(const struct model *, struct plane *, const struct touched *);
 /* Line of the touched node of that number; null for -1. */
 double *touched_line(const struct model *, int32_t touched);

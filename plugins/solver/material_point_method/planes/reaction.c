@@ -26,26 +26,40 @@ static double node_area(const struct model *m, const struct plane *p, const doub
 
 void contact_begin(struct plane *p)
 {
-  p->area = p->contact_mass = p->densest = 0.0;
+  p->area = p->contact_mass = p->densest = p->axis_area = 0.0;
+}
+
+static bool on_axis(const struct model *m, const struct plane *p, const struct touched *t)
+{
+  return m->geometry == GEOMETRY_AXISYMMETRIC && p->axis == 1 && fabs(t->x[0]) < 1e-6 * m->cell;
+}
+
+/* A full node on the axis has between once and twice the mass that its area holds. */
+void contact_see(const struct model *m, struct plane *p, const struct touched *t)
+{
+  const double share = on_axis(m, p, t) ? 0.5 : 1.0;
+  p->densest = fmax(p->densest, share * t->mass / node_area(m, p, t->x));
 }
 
 /* At its edge a body gives nodes less mass than inside. So the area is the mass of all nodes in
- * contact over that of a node, by its area, that is full, as the heaviest is taken to be. Not for
- * an oblique plane, whose nodes lie at different depths: there as many count as do on average. */
+ * contact over that of a node, by its area, that is full, as the heaviest of the plane is taken to
+ * be, in contact or not; a node on the axis counts with its own area. Not for an oblique plane,
+ * whose nodes lie at different depths: there as many count as do on average. */
 void contact_add(const struct model *m, struct plane *p, const struct touched *t)
 {
   const double area = node_area(m, p, t->x);
-  const bool axis = m->geometry == GEOMETRY_AXISYMMETRIC && p->axis == 1 &&
-                    fabs(t->x[0]) < 1e-6 * m->cell;
   p->area += area;
-  p->contact_mass += t->mass;
-  if (!axis && t->mass > p->densest * area)
-    p->densest = t->mass / area;
+  if (on_axis(m, p, t))
+    p->axis_area = area;
+  else
+    p->contact_mass += t->mass;
 }
 
 static double contact_area(const struct plane *p)
 {
-  return p->axis >= 0 && p->densest > 0.0 ? p->contact_mass / p->densest : p->area;
+  if (p->axis < 0)
+    return p->area;
+  return p->axis_area + (p->densest > 0.0 ? p->contact_mass / p->densest : 0.0);
 }
 
 /* Books what planes did at the nodes they touch; these nodes are left out of the other sums. */
