@@ -20,6 +20,9 @@
  *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI
  *     unless they carry a unit: "[a, b)", "(0, inf)".
  *   constraints: ["T_melt > T_room"]   comparisons over real parameters
+ *   needs: {shear_modulus: "(0, inf)"} strength, eos: ranges in SI of what whoever calls the law has
+ *                                      under that name. A strength needs this one unless it says
+ *                                      other ones, or {}: without shear it limits nothing
  *   given:                             alternative sets; a scene gives one. What is given leads to
  *     - {set: [youngs_modulus, poissons_ratio], then: {shear_modulus: "youngs_modulus / (2 * ..)"}}
  *     - {set: [shear_modulus]}         what is in `then`; all names are declared parameters. Those
@@ -101,6 +104,9 @@ struct parameter {
   enum gamut_kind kind;        /* of a plugin */
 };
 
+/* What a law asks of the parameter of that name of its caller, if it has one. */
+struct need { const char *parameter; struct range range; };
+
 struct given_set {
   const char **name;  size_t names;              /* given by the scene */
   const char **derived, **formula; size_t derivations; /* what follows: name = formula */
@@ -131,6 +137,7 @@ struct descriptor {
   const char **source;                 size_t sources;
   struct parameter *parameter;         size_t parameters;
   const char **constraint;             size_t constraints;
+  struct need *need;                   size_t needs;
   struct given_set *given;             size_t givens;
   struct field_use *input;             size_t inputs;
   struct field_use *output;            size_t outputs;

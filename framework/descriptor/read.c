@@ -28,6 +28,7 @@ static const struct {
     {"parameters", EVERY},
     {"constraints", EVERY},
     {"given", EVERY},
+    {"needs", LAWS},
     {"requires", EVERY},
     {"provides", EVERY},
     {"messages", EVERY},

@@ -1,4 +1,5 @@
 /* Rules over parameters: constraints, alternative sets, variants. */
+#include <math.h>
 #include <string.h>
 
 #include "descriptor/reader.h"
@@ -19,6 +20,40 @@ static void read_constraints(struct reader *reader, const struct tree *node)
     if (!strpbrk(text, "<>") && !strstr(text, "==") && !strstr(text, "!="))
       fault(reader, item_of(node, i), "such as \"T_melt > T_room\"", "'%s' compares nothing", text);
     check_expression(reader, item_of(node, i), text, names, count);
+  }
+}
+
+/* A flow stress limits the shear that an elasticity builds up: without a shear modulus a law would
+ * change nothing, in silence. A law of fluids says that it needs none. */
+static void need_shear(struct reader *reader)
+{
+  struct descriptor *d = reader->descriptor;
+  if (d->kind != GAMUT_KIND_STRENGTH)
+    return;
+  d->need = reader_keep(reader, 1, sizeof *d->need);
+  d->need[d->needs++] =
+      (struct need){"shear_modulus", {true, 0.0, INFINITY, true, true}};
+}
+
+static void read_needs(struct reader *reader, const struct tree *node)
+{
+  struct descriptor *d = reader->descriptor;
+  char why[256];
+  if (!node) {
+    need_shear(reader);
+    return;
+  }
+  if (node->kind != TREE_MAPPING) {
+    fault(reader, node, "{shear_modulus: \"(0, inf)\"}", "'needs' is no mapping");
+    return;
+  }
+  d->need = reader_keep(reader, node->children, sizeof *d->need);
+  for (size_t i = 0; i < node->children; i++) {
+    struct need *need = &d->need[d->needs++];
+    const char *text = read_text(reader, node, node->child[i]->key, true);
+    need->parameter = node->child[i]->key;
+    if (text && !range_read(text, "1", reader->units, &need->range, why, sizeof why))
+      fault(reader, node->child[i], NULL, "cannot read the range '%s': %s", text, why);
   }
 }
 
@@ -155,6 +190,7 @@ static void read_variants(struct reader *reader, const struct tree *node)
 void read_rules(struct reader *reader, const struct tree *root)
 {
   read_constraints(reader, tree_get(root, "constraints"));
+  read_needs(reader, tree_get(root, "needs"));
   read_given(reader, tree_get(root, "given"));
   read_variants(reader, tree_get(root, "variants"));
 }

@@ -155,6 +155,13 @@ static void put_rules(FILE *file, const struct descriptor *d)
     fputs("\nconstraints\n", file);
   for (size_t i = 0; i < d->constraints; i++)
     fprintf(file, "  %s\n", d->constraint[i]);
+  if (d->needs)
+    fputs("\nneeds of whoever calls it\n", file);
+  for (size_t i = 0; i < d->needs; i++) {
+    char range[128];
+    fprintf(file, "  %s %s\n", d->need[i].parameter,
+            range_text(&d->need[i].range, NULL, range, sizeof range));
+  }
   if (d->givens)
     fputs("\ngive one of these sets\n", file);
   for (size_t i = 0; i < d->givens; i++) {

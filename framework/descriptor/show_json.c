@@ -219,6 +219,10 @@ void descriptor_show_json(const struct descriptor *d, FILE *file)
                       parameters(d->material_parameter, d->material_parameters));
   json_object_set_new(object, "body_parameters", parameters(d->body_parameter, d->body_parameters));
   json_object_set_new(object, "constraints", texts(d->constraint, d->constraints));
+  json_t *needs = json_object();
+  for (size_t i = 0; i < d->needs; i++)
+    set_range(needs, d->need[i].parameter, &d->need[i].range);
+  json_object_set_new(object, "needs", needs);
   json_object_set_new(object, "given", given_sets(d));
   json_object_set_new(object, "variants", variants(d));
   set_interface(object, d);

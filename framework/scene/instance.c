@@ -9,14 +9,20 @@ static const struct tree *model_node(const struct tree *node)
   return node && node->kind == TREE_MAPPING ? tree_get(node, "model") : node;
 }
 
+const char *standard_model(enum gamut_kind kind)
+{
+  return kind == GAMUT_KIND_ELASTICITY ? "hypoelastic" : NULL;
+}
+
 const struct descriptor *instance_peek(const struct reading *reading, enum gamut_kind kind,
                                        const struct tree *node)
 {
   char id[160];
   const struct tree *model = model_node(node);
-  if (!model || model->kind != TREE_SCALAR)
+  const char *name = model ? model->text : standard_model(kind);
+  if ((model && model->kind != TREE_SCALAR) || !name)
     return NULL;
-  snprintf(id, sizeof id, "%s/%.120s", kind_name(kind), model->text);
+  snprintf(id, sizeof id, "%s/%.120s", kind_name(kind), name);
   return registry_find(reading->registry, id);
 }
 
@@ -72,18 +78,20 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
 {
   char path[PATH_SIZE], what[160];
   const struct tree *model = model_node(node), *here = reading->here;
+  const char *text = model ? model->text : standard_model(kind);
   *instance = (struct instance){.name = name, .node = node};
   if (node->kind == TREE_SEQUENCE) {
     expect_mapping(reading, node, name);
     return;
   }
-  if (!model || model->kind != TREE_SCALAR || model->text[0] == 0) {
+  if (!text || text[0] == 0 || (model && model->kind != TREE_SCALAR)) {
     blame_model(reading, kind, node, name);
     return;
   }
-  tree_path(model, path, sizeof path);
+  tree_path(model ? model : node, path, sizeof path);
   const struct descriptor *descriptor =
-      registry_expect(reading->registry, kind, model->text, &model->place, path, reading->trace);
+      registry_expect(reading->registry, kind, text, model ? &model->place : &node->place, path,
+                      reading->trace);
   if (!descriptor) {
     reading->faults++;
     reading->first = reading->first ? reading->first : GAMUT_SCENE;

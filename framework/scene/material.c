@@ -56,8 +56,6 @@ static void neighbours_of(struct reading *reading, const struct tree *node, cons
       continue;
     const struct descriptor *d =
         instance_peek(reading, parts[i].kind, tree_get(node, parts[i].key));
-    if (!d && parts[i].kind == GAMUT_KIND_ELASTICITY && !tree_get(node, parts[i].key))
-      d = registry_find(reading->registry, "elasticity/hypoelastic");
     if (d)
       neighbour_add(reading, parts[i].where, d->parameter, d->parameters, NULL, 0);
   }
@@ -75,20 +73,22 @@ static const struct descriptor *own_caller(const struct reading *reading)
 
 static void elasticity_default(struct reading *reading, struct material *material)
 {
-  char path[PATH_SIZE];
-  const struct descriptor *descriptor = registry_find(reading->registry, "elasticity/hypoelastic");
+  char path[PATH_SIZE], what[160];
+  const struct descriptor *descriptor = instance_peek(reading, GAMUT_KIND_ELASTICITY, NULL);
   if (!descriptor) {
     blame_key(reading, material->node, "state 'elasticity:'",
-              "elasticity/hypoelastic, the default, is not installed");
+              "elasticity/%s, the default, is not installed",
+              standard_model(GAMUT_KIND_ELASTICITY));
     return;
   }
+  snprintf(what, sizeof what, "elasticity '%s'", descriptor->name);
   snprintf(path, sizeof path, "materials.%s.elasticity", material->name);
   reading->here = material->node;
   struct section section = {.descriptor = descriptor,
                             .parameter = descriptor->parameter,
                             .count = descriptor->parameters,
                             .path = path,
-                            .what = "elasticity 'hypoelastic'",
+                            .what = what,
                             .pointwise = true};
   material->elasticity = (struct instance){.name = "elasticity", .descriptor = descriptor};
   material->elasticity.values = section_read(reading, &section);
@@ -196,7 +196,6 @@ static void material_read(struct reading *reading, const struct tree *node,
 
   source_check(reading, tree_get(node, "source"));
   parts_read(reading, node, material, extra, extras);
-  laws_check(reading, material);
 }
 
 void materials_read(struct reading *reading, const struct tree *root)
@@ -239,6 +238,47 @@ static void needs_check(struct reading *reading, const struct descriptor *plugin
   }
 }
 
+static bool in_use(const struct scene *scene, size_t material)
+{
+  bool found = false;
+  for (size_t b = 0; b < scene->bodies; b++)
+    found = found || scene->body[b].material == material;
+  return found;
+}
+
+/* Whether all that was given could be read: what follows from a fault is not told as one more. */
+static bool understood(const struct instance *instance)
+{
+  const struct values *values = instance->values;
+  for (size_t i = 0; i < values->count; i++)
+    if (values->value[i].given && !values->value[i].present)
+      return false;
+  return instance->descriptor->givens == 0 || given_set_chosen(values, instance->descriptor);
+}
+
+/* What a law asks of whoever calls it: of the material's elasticity, or of a solver that calls laws
+ * itself. A parameter that the caller does not have is none of its business. */
+static void law_needs(struct reading *reading, const struct instance *law,
+                      const struct material *material)
+{
+  const struct descriptor *d = law->descriptor, *solver = own_caller(reading);
+  const struct instance *caller = solver ? &reading->scene->solver : &material->elasticity;
+  const char *kind = solver ? "solver" : "elasticity";
+  char range[160], expected[WORDS_SIZE];
+  for (size_t i = 0; d && caller->values && i < d->needs; i++) {
+    const struct value *value = values_find(caller->values, d->need[i].parameter);
+    if (!value || !understood(caller) || (value->present && range_holds(&d->need[i].range, value->real)))
+      continue;
+    const struct parameter *p = value->parameter;
+    range_text(&d->need[i].range, p->unit, range, sizeof range);
+    snprintf(expected, sizeof expected, "%s: {%s: ..}, %s", kind, p->name, range);
+    blame_value(reading, value->node ? value->node : law->node, expected,
+                "%s '%s' of material '%s' has no effect where %s is %.6g%s%s", law->name, d->name,
+                material->name, p->name, value->present ? value->real : 0.0,
+                unit_is_pure(p->unit) ? "" : " ", unit_is_pure(p->unit) ? "" : p->unit);
+  }
+}
+
 void material_needs(struct reading *reading)
 {
   const struct scene *scene = reading->scene;
@@ -246,6 +286,11 @@ void material_needs(struct reading *reading)
   for (size_t m = 0; m < scene->materials; m++) {
     const struct material *material = &scene->material[m];
     const struct descriptor *elasticity = material->elasticity.descriptor;
+    if (in_use(scene, m)) {
+      laws_check(reading, material);
+      law_needs(reading, &material->eos, material);
+      law_needs(reading, &material->strength, material);
+    }
     if (elasticity) {
       snprintf(who, sizeof who, "elasticity '%s'", elasticity->name);
       needs_check(reading, elasticity, who, material);

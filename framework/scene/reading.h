@@ -147,6 +147,8 @@ void overrides_put(struct reading *, struct tree *root, const struct scene_overr
 /* {model: NAME, ...} or NAME. `what` is the key: "strength". Descriptor null with a fault. */
 void instance_read(struct reading *, enum gamut_kind, const char *name, const struct tree *,
                    const char *const *also, size_t others, struct instance *);
+/* The plugin of a kind where a scene names none; null where it must. */
+const char *standard_model(enum gamut_kind);
 /* Only the descriptor that `node` names; null (no fault) if it names none that is installed. */
 const struct descriptor *instance_peek(const struct reading *, enum gamut_kind,
                                        const struct tree *);

@@ -6,7 +6,8 @@
  *                                     to the folder of inputs beside it and the installed one
  *   solver: {model: NAME, ...}        the solver's parameters
  *   materials: {NAME: {density:, eos: {model:, ...}, strength:, elasticity:, source: text, ...}}
- *                                     elasticity defaults to hypoelastic; strength may be absent.
+ *                                     elasticity, or its model, defaults to hypoelastic; strength
+ *                                     may be absent, and needs a shear modulus.
  *                                     Further keys: material_parameters of any installed plugin
  *   bodies: {NAME: {material:, shape:, velocity:, temperature:, pressure: | energy:, ...}}
  *                                     velocity: vector with units, or [expression strings of x, y,

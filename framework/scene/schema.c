@@ -148,9 +148,12 @@ static json_t *plugin_schema(const struct registry *registry, enum gamut_kind ki
         parameters_schema(d->parameter, d->parameters, common ? common() : json_object());
     json_object_set_new(properties, "model", json_pack("{s:s}", "const", d->name));
     json_t *then = described(object(properties, true), "%s", d->summary ? d->summary : "");
-    json_array_append_new(branches,
-                          json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:o}", "if", "properties", "model",
-                                    "const", d->name, "required", "model", "then", then));
+    json_t *branch = json_pack("{s:{s:{s:{s:s}}}, s:o}", "if", "properties", "model", "const",
+                               d->name, "then", then);
+    const char *standard = standard_model(kind);
+    if (!standard || strcmp(standard, d->name) != 0) /* a key that is absent holds: the default */
+      json_object_set_new(json_object_get(branch, "if"), "required", json_pack("[s]", "model"));
+    json_array_append_new(branches, branch);
   }
   json_t *mapping =
       json_pack("{s:s, s:{s:{s:O}}}", "type", "object", "properties", "model", "enum", models);
