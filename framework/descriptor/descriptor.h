@@ -20,9 +20,9 @@
  *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI
  *     unless they carry a unit: "[a, b)", "(0, inf)".
  *   constraints: ["T_melt > T_room"]   comparisons over real parameters
- *   needs: {shear_modulus: "(0, inf)"} strength, eos: ranges in SI of what whoever calls the law has
- *                                      under that name. A strength needs this one unless it says
- *                                      other ones, or {}: without shear it limits nothing
+ *   needs: {shear_modulus: "(0, inf)"} strength, eos: ranges in SI of what its caller has of that
+ *                                      name. A strength needs this one unless it says other ones,
+ *                                      or {}: without shear it limits nothing
  *   given:                             alternative sets; a scene gives one. What is given leads to
  *     - {set: [youngs_modulus, poissons_ratio], then: {shear_modulus: "youngs_modulus / (2 * ..)"}}
  *     - {set: [shear_modulus]}         what is in `then`; all names are declared parameters. Those

@@ -52,9 +52,9 @@ static const struct {
 static bool is_public(const char *name)
 {
   static const char *const tag[] = {
-      "batch", "body",  "chunk",  "eos_law",  "field",  "host",     "law",         "moments",
-      "plane", "plugin", "reaction", "run",   "run_head", "set",    "strength_law", "stream",
-      "study_shape", "task", "use", "values"};
+      "batch",        "body",   "chunk",       "eos_law",  "field", "host",     "law",
+      "moments",      "plane",  "plugin",      "reaction", "run",   "run_head", "set",
+      "strength_law", "stream", "study_shape", "task",     "use",   "values"};
   if (strcmp(name, "gamut") == 0)
     return true;
   for (size_t i = 0; strncmp(name, "gamut_", 6) == 0 && i < LENGTH(tag); i++)

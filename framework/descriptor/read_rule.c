@@ -31,8 +31,7 @@ static void need_shear(struct reader *reader)
   if (d->kind != GAMUT_KIND_STRENGTH)
     return;
   d->need = reader_keep(reader, 1, sizeof *d->need);
-  d->need[d->needs++] =
-      (struct need){"shear_modulus", {true, 0.0, INFINITY, true, true}};
+  d->need[d->needs++] = (struct need){"shear_modulus", {true, 0.0, INFINITY, true, true}};
 }
 
 static void read_needs(struct reader *reader, const struct tree *node)

@@ -10,6 +10,13 @@
 
 #include "error/error.h"
 
+/* Who gives a field its values where no task writes it. */
+enum given {
+  GIVEN_BY_NOBODY,
+  GIVEN_BY_SOLVER, /* at the start, or in its own way between steps */
+  GIVEN_BY_BODY    /* one value a body, from the scene */
+};
+
 /* A field known in a run. Components are numbered through: component k of the field is number
  * handle.first + k, the index into a chunk's begin and end tables. */
 struct field {
@@ -17,6 +24,7 @@ struct field {
   enum gamut_where where;
   struct gamut_field handle;
   double initial;
+  enum given given;
   bool used;      /* some live task or output touches it */
   bool history;   /* keeps a begin and an end value */
   bool stored;    /* has arrays; otherwise it lives in a thread's scratch during a sweep */

@@ -91,9 +91,9 @@ static gamut_status create_solver(struct gamut_run *run)
   run->solver = ops;
   if ((run->scene->checkpoint_every > 0.0 || run->scene->checkpoint_wall > 0.0) &&
       !run_can_stop(run))
-    status = trace_fail_at(run->trace, GAMUT_SCENE, NULL, "outputs.checkpoint", "leave it out",
-                           "%s has no `save`: its runs leave no checkpoints",
-                           instance->descriptor->id);
+    status =
+        trace_fail_at(run->trace, GAMUT_SCENE, NULL, "outputs.checkpoint", "leave it out",
+                      "%s has no `save`: its runs leave no checkpoints", instance->descriptor->id);
 done:
   return status;
 }
@@ -111,14 +111,19 @@ static gamut_status run_material_job(void *self, const struct gamut_chunk *chunk
   return status;
 }
 
+/* Where the scene names the effect that is made now. */
+static const struct place *place_of_owner(const struct gamut_run *run)
+{
+  return run->creating ? &run->creating->effect->instance.node->place : NULL;
+}
+
 /* A task that updates materials is registered once a set, since each set's material has fields of
  * its own. */
 static gamut_status add_material_task(struct gamut_run *run, const char *owner,
                                       const struct gamut_task *task, size_t set)
 {
   size_t count;
-  const struct gamut_use *uses =
-      material_uses(run->material[run->set[set]->material], &count);
+  const struct gamut_use *uses = material_uses(run->material[run->set[set]->material], &count);
   struct gamut_use *all = calloc(task->use_count + count + 1, sizeof *all);
   struct material_job *job = calloc(1, sizeof *job);
   struct material_job **grown = realloc(run->job, (run->jobs + 1) * sizeof(*grown));
@@ -139,8 +144,8 @@ static gamut_status add_material_task(struct gamut_run *run, const char *owner,
   whole.use_count = task->use_count + count;
   whole.run = run_material_job;
   whole.self = job;
-  gamut_status status =
-      schedule_add(run->schedule, owner, &whole, run->fields, set, NULL, run->trace);
+  gamut_status status = schedule_add(run->schedule, owner, place_of_owner(run), &whole, run->fields,
+                                     set, NULL, run->trace);
   free(all);
   return status;
 }
@@ -161,7 +166,8 @@ gamut_status run_add_task(struct gamut_run *run, const char *owner, const struct
   gamut_status status = GAMUT_OK;
   TRY(declare_used(run, task));
   if (!task->material)
-    return schedule_add(run->schedule, owner, task, run->fields, only_set, on_set, run->trace);
+    return schedule_add(run->schedule, owner, place_of_owner(run), task, run->fields, only_set,
+                        on_set, run->trace);
   for (size_t s = 0; s < run->scene->bodies; s++)
     TRY(add_material_task(run, owner, task, s));
 done:
@@ -183,12 +189,9 @@ static gamut_status add_own_material_tasks(struct gamut_run *run)
   if (!has_phase(run->scene->solver.descriptor, "material"))
     return GAMUT_OK;
   for (size_t s = 0; s < run->scene->bodies; s++) {
-    const struct gamut_task task = {.name = "material",
-                                    .phase = "material",
-                                    .extent = GAMUT_PER_CHUNK,
-                                    .material = true};
-    snprintf(owner, sizeof owner, "material %s",
-             run->scene->material[run->set[s]->material].name);
+    const struct gamut_task task = {
+        .name = "material", .phase = "material", .extent = GAMUT_PER_CHUNK, .material = true};
+    snprintf(owner, sizeof owner, "material %s", run->scene->material[run->set[s]->material].name);
     TRY(add_material_task(run, owner, &task, s));
   }
 done:
@@ -246,6 +249,7 @@ static gamut_status allocate_all(struct gamut_run *run)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t s = 0; s < run->scene->bodies; s++)
     TRY(set_allocate(run->set[s], run->fields, run->trace));
+  given_fill(run);
   lead_start(run);
 done:
   return status;
@@ -264,6 +268,7 @@ static gamut_status assemble(struct gamut_run *run)
   TRY(add_own_material_tasks(run));
   TRY(observe_create(run));
   TRY(frames_create(run));
+  given_mark(run);
   TRY(schedule_plan(run->schedule, run->fields, run->scene->bodies, run->trace));
   TRY(effects_check(run));
   TRY(effects_resolve(run));
@@ -285,8 +290,7 @@ static void spare_threads(struct gamut_run *run)
 }
 
 gamut_status run_new(struct scene *scene, struct registry *registry,
-                     const struct run_options *options, struct trace *trace,
-                     struct gamut_run **out)
+                     const struct run_options *options, struct trace *trace, struct gamut_run **out)
 {
   gamut_status status;
   struct gamut_run *run = calloc(1, sizeof *run);

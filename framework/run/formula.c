@@ -48,15 +48,41 @@ static gamut_status keep_used(struct formula *formula, size_t count, size_t dens
   return GAMUT_OK;
 }
 
+/* Fields of the vocabulary that nobody has asked for yet and that a text names, by itself or by a
+ * component. Who wants them must then find who writes them. */
+gamut_status formula_declare(struct gamut_run *run, const char *text)
+{
+  static const char letters[] = "_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
+  char word[160], name[160];
+  for (const char *at = text; *at;) {
+    size_t length = strspn(at, letters);
+    snprintf(word, sizeof word, "%.*s", (int)length, at);
+    at += length ? length : 1;
+    for (size_t i = 0; length && vocabulary_at(i); i++) {
+      const struct vocable *v = vocabulary_at(i);
+      bool named = strcmp(word, v->name) == 0;
+      for (unsigned k = 0; v->components > 1 && k < v->components && !named; k++) {
+        snprintf(name, sizeof name, "%s_%s", v->name, component_name(v->components, k));
+        named = strcmp(word, name) == 0;
+      }
+      if (named && v->where == GAMUT_AT_POINT &&
+          !fields_add(run->fields, v->name, v->where, v->components, v->unit, v->meaning,
+                      run->trace))
+        return GAMUT_INTERNAL;
+    }
+  }
+  return GAMUT_OK;
+}
+
 gamut_status formula_new(struct gamut_run *run, const char *text, struct formula *formula)
 {
   char why[256];
-  gamut_status status = GAMUT_OK;
+  gamut_status status = formula_declare(run, text);
   size_t count = fields_components(run->fields), density = count;
   const struct field *known = fields_find(run->fields, density_name);
   char **name = variable_names(run->fields, count);
   *formula = (struct formula){.plain = SIZE_MAX};
-  if (!name)
+  if (!name || status != GAMUT_OK)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   if (known)
     density = known->handle.first;
@@ -64,9 +90,9 @@ gamut_status formula_new(struct gamut_run *run, const char *text, struct formula
     name[count++] = strdup(density_name);
   formula->expression = expression_new(text, (const char *const *)name, count, why, sizeof why);
   if (!formula->expression)
-    status = trace_fail(run->trace, GAMUT_PLUGIN,
-                        "the measure's formula '%s' cannot be worked out in this scene: %s", text,
-                        why);
+    status =
+        trace_fail(run->trace, GAMUT_PLUGIN,
+                   "the measure's formula '%s' cannot be worked out in this scene: %s", text, why);
   else if (keep_used(formula, count, density) != GAMUT_OK)
     status = trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   free_names(name, count);
@@ -76,8 +102,10 @@ gamut_status formula_new(struct gamut_run *run, const char *text, struct formula
 gamut_status formula_plain(struct gamut_run *run, const char *name, struct formula *formula)
 {
   unsigned component;
-  const struct field *field = fields_component(run->fields, name, &component);
   *formula = (struct formula){.plain = SIZE_MAX};
+  if (formula_declare(run, name) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  const struct field *field = fields_component(run->fields, name, &component);
   if (!field || field->where != GAMUT_AT_POINT)
     return trace_fail(run->trace, GAMUT_SCENE,
                       "'%s' is wanted, but no plugin of this scene has such a field", name);
@@ -93,19 +121,23 @@ double formula_value(struct formula *formula, const struct gamut_run *run,
   for (size_t i = 0; i < formula->variables; i++) {
     size_t k = formula->variable[i];
     const double *array = k == SIZE_MAX ? NULL : set->array[k];
-    formula->value[formula->position[i]] =
-        k == SIZE_MAX ? run->scene->material[set->material].density : array ? array[slot] : NAN;
+    formula->value[formula->position[i]] = k == SIZE_MAX
+                                               ? run->scene->material[set->material].density
+                                           : array ? array[slot]
+                                                   : NAN;
   }
   return expression_value(formula->expression, formula->value);
 }
 
-void formula_want(const struct formula *formula, struct gamut_run *run, const char *why)
+void formula_want(const struct formula *formula, struct gamut_run *run, size_t set, const char *why,
+                  const struct place *place)
 {
   if (!formula->expression && formula->plain != SIZE_MAX)
-    schedule_want(run->schedule, fields_of_component(run->fields, formula->plain), why);
+    schedule_want(run->schedule, fields_of_component(run->fields, formula->plain), set, why, place);
   for (size_t i = 0; i < formula->variables; i++)
     if (formula->variable[i] != SIZE_MAX)
-      schedule_want(run->schedule, fields_of_component(run->fields, formula->variable[i]), why);
+      schedule_want(run->schedule, fields_of_component(run->fields, formula->variable[i]), set, why,
+                    place);
 }
 
 void formula_free(struct formula *formula)

@@ -21,11 +21,22 @@ static const struct measure *measure_of_material(const struct gamut_run *run, si
   return found ? found : point_measure(run->scene->solver.descriptor, name);
 }
 
+/* Where outputs.fields names it; null where it does not by itself. */
+static const struct place *place_of_field(const struct gamut_run *run, const char *name)
+{
+  const struct tree *fields = tree_get(tree_get(run->scene->tree, "outputs"), "fields");
+  for (size_t i = 0; fields && i < fields->children; i++)
+    if (fields->child[i]->text && strcmp(fields->child[i]->text, name) == 0)
+      return &fields->child[i]->place;
+  return fields ? &fields->place : NULL;
+}
+
+static const char why[] = "'outputs.fields'";
+
 static gamut_status measure_column(struct gamut_run *run, const char *name,
                                    struct frame_column *column, bool *found)
 {
   gamut_status status = GAMUT_OK;
-  char why[] = "the output";
   column->formula = calloc(run->scene->materials + 1, sizeof *column->formula);
   if (!column->formula)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
@@ -37,7 +48,7 @@ static gamut_status measure_column(struct gamut_run *run, const char *name,
     column->unit = measure->unit;
     column->meaning = measure->doc;
     TRY(formula_new(run, measure->formula, &column->formula[m]));
-    formula_want(&column->formula[m], run, why);
+    formula_want(&column->formula[m], run, SIZE_MAX, why, place_of_field(run, name));
   }
 done:
   return status;
@@ -54,6 +65,7 @@ static gamut_status create_column(struct gamut_run *run, const char *name,
   TRY(measure_column(run, name, column, &found));
   if (found)
     return GAMUT_OK;
+  TRY(formula_declare(run, name));
   struct field *field = fields_find(run->fields, name);
   if (field && field->where == GAMUT_AT_POINT) {
     column->field = field;
@@ -64,12 +76,12 @@ static gamut_status create_column(struct gamut_run *run, const char *name,
       TRY(formula_plain(run, name, &column->formula[m]));
   }
   if (!field)
-    return trace_fail(run->trace, GAMUT_SCENE,
-                      "outputs.fields names '%s', but no plugin of this scene has such a field",
-                      name);
+    return trace_fail_at(run->trace, GAMUT_SCENE, place_of_field(run, name), NULL, NULL,
+                         "outputs.fields names '%s', but no plugin of this scene has such a field",
+                         name);
   column->unit = field->unit;
   column->meaning = field->meaning;
-  schedule_want(run->schedule, field, "the output");
+  schedule_want(run->schedule, field, SIZE_MAX, why, place_of_field(run, name));
 done:
   return status;
 }
@@ -202,8 +214,7 @@ static gamut_status fill_frame(struct gamut_run *run, struct frame *frame)
     const double **data = (const double **)&frame->memory[frame->pieces];
     for (size_t s = 0; s < sets; s++)
       for (unsigned k = 0; k < column->components; k++)
-        frame->memory[frame->pieces++] =
-            pick_column(run, column, k, run->set[s], &frame->order[s]);
+        frame->memory[frame->pieces++] = pick_column(run, column, k, run->set[s], &frame->order[s]);
     frame->field[c] = (struct frame_field){.name = column->name,
                                            .unit = column->unit,
                                            .meaning = column->meaning,

@@ -185,8 +185,16 @@ gamut_status formula_plain(struct gamut_run *, const char *component, struct for
 double formula_value(struct formula *, const struct gamut_run *, const struct point_set *,
                      size_t slot);
 void formula_free(struct formula *);
-/* Tells the scheduler which fields it reads. */
-void formula_want(const struct formula *, struct gamut_run *, const char *why);
+/* Tells the scheduler which fields it reads; see schedule_want. */
+void formula_want(const struct formula *, struct gamut_run *, size_t set, const char *why,
+                  const struct place *);
+/* Declares what a text names of the vocabulary. */
+gamut_status formula_declare(struct gamut_run *, const char *text);
+
+/* given.c: before the plan says which fields have values that no task writes; fills those of
+ * bodies once there are arrays. */
+void given_mark(struct gamut_run *);
+void given_fill(struct gamut_run *);
 
 /* observe.c */
 gamut_status observe_create(struct gamut_run *);

@@ -66,8 +66,10 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
     else
       TRY(formula_plain(run, quantity->measure ? quantity->measure->name : quantity->field,
                         &probe->formula));
-    snprintf(why, sizeof why, "quantity %s", quantity->name);
-    formula_want(&probe->formula, run, why);
+    snprintf(why, sizeof why, "quantity '%s'",
+             quantity->family ? quantity->family : quantity->name);
+    formula_want(&probe->formula, run, quantity->body >= 0 ? (size_t)quantity->body : SIZE_MAX, why,
+                 quantity->node ? &quantity->node->place : NULL);
   } else if (quantity->effect) {
     probe->effect = effect_called(run, quantity->effect);
     if (!probe->effect)

@@ -89,9 +89,8 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
     return;
   }
   tree_path(model ? model : node, path, sizeof path);
-  const struct descriptor *descriptor =
-      registry_expect(reading->registry, kind, text, model ? &model->place : &node->place, path,
-                      reading->trace);
+  const struct descriptor *descriptor = registry_expect(
+      reading->registry, kind, text, model ? &model->place : &node->place, path, reading->trace);
   if (!descriptor) {
     reading->faults++;
     reading->first = reading->first ? reading->first : GAMUT_SCENE;

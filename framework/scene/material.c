@@ -267,7 +267,8 @@ static void law_needs(struct reading *reading, const struct instance *law,
   char range[160], expected[WORDS_SIZE];
   for (size_t i = 0; d && caller->values && i < d->needs; i++) {
     const struct value *value = values_find(caller->values, d->need[i].parameter);
-    if (!value || !understood(caller) || (value->present && range_holds(&d->need[i].range, value->real)))
+    if (!value || !understood(caller) ||
+        (value->present && range_holds(&d->need[i].range, value->real)))
       continue;
     const struct parameter *p = value->parameter;
     range_text(&d->need[i].range, p->unit, range, sizeof range);

@@ -195,11 +195,11 @@ static json_t *shape_schema(void)
                               true);
   json_decref(place);
   json_decref(length);
-  json_t *shape = object(
-      json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "box", box, "cylinder", cylinder,
-                "sphere", sphere, "tube", tube, "cone", cone, "union",
-                list_of(reference("shape"), 1, 0), "difference", difference, "points", points),
-      true);
+  json_t *shape = object(json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "box", box,
+                                   "cylinder", cylinder, "sphere", sphere, "tube", tube, "cone",
+                                   cone, "union", list_of(reference("shape"), 1, 0), "difference",
+                                   difference, "points", points),
+                         true);
   json_object_set_new(shape, "minProperties", json_integer(1));
   json_object_set_new(shape, "maxProperties", json_integer(1));
   return described(shape, "one shape");
@@ -247,11 +247,11 @@ static json_t *quantity_schema(const struct registry *registry)
   json_t *line = object(json_pack("{s:o, s:o, s:{s:s}}", "from", reference("place"), "to",
                                   reference("place"), "points", "type", "integer"),
                         true);
-  json_t *at = object(json_pack("{s:{s:s}, s:o, s:o, s:o, s:{s:[s, s]}}", "body", "type", "string",
-                                "point", reference("place"), "points",
-                                list_of(reference("place"), 1, 0), "line", line, "follow", "enum",
-                                "material", "space"),
-                      true);
+  json_t *at =
+      object(json_pack("{s:{s:s}, s:o, s:o, s:o, s:{s:[s, s]}}", "body", "type", "string", "point",
+                       reference("place"), "points", list_of(reference("place"), 1, 0), "line",
+                       line, "follow", "enum", "material", "space"),
+             true);
   json_t *properties = json_pack(
       "{s:{s:s}, s:{s:s}, s:{s:s}, s:o, s:o, s:o}", "measure", "type", "string", "effect", "type",
       "string", "body", "type", "string", "at", at, "reduce",
@@ -279,8 +279,8 @@ static json_t *definitions(const struct registry *registry)
                        "field", reference(kind_name(GAMUT_KIND_RANDOM_FIELD))),
              true);
   json_decref(value);
-  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "shape", shape_schema(), "number",
-                   pure, "quantity",
+  return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "shape", shape_schema(), "number", pure,
+                   "quantity",
                    json_pack("{s:s, s:s, s:[s]}", "type", "string", "pattern",
                              "^[-+]?[0-9.]+([eE][-+]?[0-9]+)? ", "examples", "0.4 mm"),
                    "random", random, kind_name(GAMUT_KIND_RANDOM_FIELD),
@@ -292,9 +292,8 @@ static json_t *definitions(const struct registry *registry)
 
 void schema_write(const struct registry *registry, FILE *file)
 {
-  json_t *checkpoint =
-      json_pack("{s:[o, o]}", "anyOf", reference("quantity"),
-                object(json_pack("{s:o}", "every", reference("quantity")), true));
+  json_t *checkpoint = json_pack("{s:[o, o]}", "anyOf", reference("quantity"),
+                                 object(json_pack("{s:o}", "every", reference("quantity")), true));
   json_t *outputs =
       object(json_pack("{s:o, s:{s:s}, s:o, s:o}", "every", reference("quantity"), "frames", "type",
                        "integer", "fields", reference("names"), "checkpoint", checkpoint),

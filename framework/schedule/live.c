@@ -59,26 +59,69 @@ static const char *dead_reason(const struct task *task, char *text, size_t size)
   return "it writes nothing";
 }
 
+static bool written(const struct schedule *schedule, const struct field *field, size_t set)
+{
+  for (size_t i = 0; i < schedule->tasks; i++) {
+    const struct task *writer = schedule->task[i];
+    if (writer->live && task_writes(writer, field) && (set == SIZE_MAX || task_on_set(writer, set)))
+      return true;
+  }
+  return false;
+}
+
+static const struct place *known(const struct place *place)
+{
+  return place->file ? place : NULL;
+}
+
 /* What a read means now that the live writers are known. */
 static gamut_status resolve(const struct schedule *schedule, struct task *task, struct use *use,
                             struct trace *trace)
 {
-  if (use->access != GAMUT_READ && use->access != GAMUT_READ_IF)
+  const struct field *field = use->field;
+  if (!access_reads(use->access))
     return GAMUT_OK;
   size_t writers = 0, later = 0;
   for (size_t i = 0; i < schedule->tasks; i++) {
     const struct task *writer = schedule->task[i];
-    if (!writer->live || !task_writes(writer, use->field))
+    if (!writer->live || !task_writes(writer, field))
       continue;
     writers++;
     later += writer->phase > task->phase;
   }
-  if (writers && writers == later)
+  if (writers && writers == later && (use->access == GAMUT_READ || use->access == GAMUT_READ_IF))
     use->access = GAMUT_READ_LAST;
-  if (!writers && use->access == GAMUT_READ && use->field->where == GAMUT_AT_POINT)
-    return trace_fail(trace, GAMUT_SCENE,
-                      "task '%s' of %s reads '%s' (%s), which nothing in this scene provides",
-                      task->name, task->owner, use->field->name, use->field->meaning);
+  if (writers || use->access == GAMUT_READ_IF || field->where != GAMUT_AT_POINT)
+    return GAMUT_OK;
+  if (field->given == GIVEN_BY_NOBODY)
+    return trace_fail_at(trace, GAMUT_SCENE, known(&task->place), NULL, NULL,
+                         "task '%s' of %s reads '%s' (%s), which nothing in this scene provides",
+                         task->name, task->owner, field->name, field->meaning);
+  if (use->access == GAMUT_READ) {
+    use->access = GAMUT_READ_BEGIN;
+    if (field->given == GIVEN_BY_BODY)
+      trace_warn_at(trace, known(&task->place), NULL, NULL,
+                    "%s reads the %s, which never changes in this scene", task->owner, field->name);
+  }
+  return GAMUT_OK;
+}
+
+/* What somebody outside wants and no task writes would be zeros. */
+static gamut_status check_want(const struct schedule *schedule, const struct want *want,
+                               struct trace *trace)
+{
+  const struct field *field = want->field;
+  if (field->where != GAMUT_AT_POINT || written(schedule, field, want->set))
+    return GAMUT_OK;
+  if (field->given == GIVEN_BY_NOBODY)
+    return trace_fail_at(
+        trace, GAMUT_SCENE, known(&want->place), NULL, "add what writes it, or leave it out",
+        "%s asks for '%s' (%s), which nothing in this scene writes%s", want->why, field->name,
+        field->meaning, written(schedule, field, SIZE_MAX) ? " for this body" : "");
+  if (field->given == GIVEN_BY_BODY)
+    trace_warn_at(trace, known(&want->place), NULL, NULL,
+                  "%s asks for the %s, which never changes: nothing in this scene writes it",
+                  want->why, field->name);
   return GAMUT_OK;
 }
 
@@ -100,6 +143,8 @@ gamut_status plan_liveness(struct schedule *schedule, struct trace *trace)
     for (size_t u = 0; task->live && u < task->uses; u++)
       TRY(resolve(schedule, task, &task->use[u], trace));
   }
+  for (size_t w = 0; w < schedule->wants; w++)
+    TRY(check_want(schedule, &schedule->want[w], trace));
 done:
   return status;
 }

@@ -10,7 +10,9 @@ struct declined {
 
 struct want {
   struct field *field;
+  size_t set; /* SIZE_MAX: any */
   char *why;
+  struct place place; /* no file: none */
 };
 
 struct schedule {

@@ -86,8 +86,8 @@ static gamut_status find_phase(const struct schedule *schedule, const struct gam
                     task->name, owner, task->phase);
 }
 
-static gamut_status copy_uses(struct task *to, const struct gamut_task *from,
-                              struct fields *fields, struct trace *trace)
+static gamut_status copy_uses(struct task *to, const struct gamut_task *from, struct fields *fields,
+                              struct trace *trace)
 {
   to->use = calloc(from->use_count ? from->use_count : 1, sizeof *to->use);
   if (!to->use)
@@ -95,15 +95,17 @@ static gamut_status copy_uses(struct task *to, const struct gamut_task *from,
   for (size_t i = 0; i < from->use_count; i++) {
     struct field *field = fields_find(fields, from->uses[i].field);
     if (!field)
-      return trace_fail(trace, GAMUT_PLUGIN, "task '%s' of %s names the field '%s', which nobody "
-                        "declares", from->name, to->owner, from->uses[i].field);
+      return trace_fail(trace, GAMUT_PLUGIN,
+                        "task '%s' of %s names the field '%s', which nobody "
+                        "declares",
+                        from->name, to->owner, from->uses[i].field);
     to->use[to->uses].field = field;
     to->use[to->uses++].access = from->uses[i].access;
   }
   return GAMUT_OK;
 }
 
-gamut_status schedule_add(struct schedule *schedule, const char *owner,
+gamut_status schedule_add(struct schedule *schedule, const char *owner, const struct place *place,
                           const struct gamut_task *task, struct fields *fields, size_t only_set,
                           const bool *on_set, struct trace *trace)
 {
@@ -118,6 +120,8 @@ gamut_status schedule_add(struct schedule *schedule, const char *owner,
   }
   added->name = strdup(task->name);
   added->owner = strdup(owner);
+  if (place)
+    added->place = *place;
   added->extent = task->extent;
   added->essential = task->essential;
   added->run = task->run;
@@ -135,8 +139,7 @@ done:
 
 static gamut_status add_declined(struct schedule *schedule, const char *owner, const char *why)
 {
-  struct declined *grown =
-      realloc(schedule->declined, (schedule->declines + 1) * sizeof *grown);
+  struct declined *grown = realloc(schedule->declined, (schedule->declines + 1) * sizeof *grown);
   if (!grown)
     return GAMUT_INTERNAL;
   schedule->declined = grown;
@@ -149,13 +152,16 @@ void schedule_decline(struct schedule *schedule, const char *owner, const char *
   (void)add_declined(schedule, owner, why);
 }
 
-void schedule_want(struct schedule *schedule, struct field *field, const char *why)
+void schedule_want(struct schedule *schedule, struct field *field, size_t set, const char *why,
+                   const struct place *place)
 {
   struct want *grown = realloc(schedule->want, (schedule->wants + 1) * sizeof *grown);
   if (!grown)
     return;
   schedule->want = grown;
-  grown[schedule->wants++] = (struct want){field, strdup(why)};
+  grown[schedule->wants++] = (struct want){field, set, strdup(why), {0}};
+  if (place)
+    grown[schedule->wants - 1].place = *place;
 }
 
 gamut_status schedule_plan(struct schedule *schedule, struct fields *fields, size_t sets,

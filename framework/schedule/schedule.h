@@ -11,6 +11,7 @@
 
 struct task {
   char *name, *owner;         /* owner: "solver", "material copper", "effect heat" */
+  struct place place;         /* of the owner in the scene; no file: none */
   size_t phase;
   enum gamut_extent extent;
   struct use { struct field *field; enum gamut_access access; } *use;
@@ -35,14 +36,18 @@ struct sweep {
 struct schedule;
 struct schedule *schedule_new(const char *const *phase, size_t phases);
 void schedule_free(struct schedule *);
-gamut_status schedule_add(struct schedule *, const char *owner, const struct gamut_task *,
-                          struct fields *, size_t only_set, const bool *on_set, struct trace *);
+/* `place` of the owner, copied, or null. */
+gamut_status schedule_add(struct schedule *, const char *owner, const struct place *place,
+                          const struct gamut_task *, struct fields *, size_t only_set,
+                          const bool *on_set, struct trace *);
 /* Records an effect (or task) that is off, with the reason, for explain. */
 void schedule_decline(struct schedule *, const char *owner, const char *why);
-/* Somebody outside the tasks reads this field between steps (output, quantity, checkpoint). */
-void schedule_want(struct schedule *, struct field *, const char *why);
-/* Works the plan out. Errors: no provider for a field that is read, unknown phase, a cycle (named).
- */
+/* Somebody outside the tasks ("quantity speed") reads this field between steps, on one set or, with
+ * SIZE_MAX, on any. `place` of who wants it, copied, or null. */
+void schedule_want(struct schedule *, struct field *, size_t set, const char *why,
+                   const struct place *place);
+/* Works the plan out. Errors: nothing provides a field that is read or wanted, unknown phase, a
+ * cycle (named). Warns of what is wanted and never changes. */
 gamut_status schedule_plan(struct schedule *, struct fields *, size_t sets, struct trace *);
 
 size_t schedule_tasks(const struct schedule *);

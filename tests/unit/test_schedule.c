@@ -46,10 +46,11 @@ static void add(struct plan *plan, const char *name, const char *phase, enum gam
                                   .use_count = count,
                                   .essential = essential,
                                   .run = nothing};
-  schedule_add(plan->schedule, "test", &task, plan->fields, SIZE_MAX, NULL, plan->trace);
+  schedule_add(plan->schedule, "test", NULL, &task, plan->fields, SIZE_MAX, NULL, plan->trace);
 }
-#define USES(...) (const struct gamut_use[]){__VA_ARGS__}, \
-  sizeof((const struct gamut_use[]){__VA_ARGS__}) / sizeof(struct gamut_use)
+#define USES(...)                                                                                  \
+  (const struct gamut_use[]){__VA_ARGS__},                                                         \
+      sizeof((const struct gamut_use[]){__VA_ARGS__}) / sizeof(struct gamut_use)
 
 static const struct task *task_called(const struct plan *plan, const char *name, size_t *index)
 {
@@ -112,7 +113,7 @@ static void test_wanted(void)
   add_step(&plan);
   add(&plan, "heating", "after", GAMUT_PER_CHUNK, false,
       USES({"heat", GAMUT_READ}, {"temperature", GAMUT_WRITE}));
-  schedule_want(plan.schedule, fields_find(plan.fields, "temperature"), "outputs");
+  schedule_want(plan.schedule, fields_find(plan.fields, "temperature"), SIZE_MAX, "outputs", NULL);
   schedule_plan(plan.schedule, plan.fields, 1, plan.trace);
   const struct task *task = task_called(&plan, "heating", &index);
   tap_ok(task->live && strstr(task->why, "outputs"), "an output brings it to life: %s", task->why);
@@ -150,8 +151,8 @@ static void test_faults(void)
   tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_PLUGIN,
          "tasks that wait for each other are an error");
   const struct gamut_task stray = {.name = "stray", .phase = "nowhere", .run = nothing};
-  tap_ok(schedule_add(plan.schedule, "test", &stray, plan.fields, SIZE_MAX, NULL, plan.trace) ==
-             GAMUT_PLUGIN,
+  tap_ok(schedule_add(plan.schedule, "test", NULL, &stray, plan.fields, SIZE_MAX, NULL,
+                      plan.trace) == GAMUT_PLUGIN,
          "an unknown phase is an error");
   unmake(&plan);
 }
