@@ -6,6 +6,7 @@
 
 #include "command/command_run.h"
 #include "command/scene_arguments.h"
+#include "registry/guard.h"
 #include "report/report.h"
 #include "run/run.h"
 #include "store/file.h"
@@ -41,6 +42,7 @@ static void catch_signals(void)
   catch_one(SIGHUP, (int)SA_RESETHAND); /* the terminal was closed */
   for (size_t i = 0; i < sizeof batch / sizeof batch[0]; i++)
     catch_one(batch[i], 0);
+  guard_obey(&interrupted);
   /* A run of hours does not end because somebody closed a pager. */
   signal(SIGPIPE, SIG_IGN);
 }
@@ -162,8 +164,8 @@ static gamut_status run_scene(struct command *command, const struct run_argument
   progress = make_progress(scene);
   options.progress = progress_tell;
   options.progress_self = progress;
-  TRY(run_new(scene, command->registry, &options, command->trace, &run));
   catch_signals();
+  TRY(run_new(scene, command->registry, &options, command->trace, &run));
   /* A batch job says --resume each time, also the first. */
   if (arguments->resume && store_there(arguments->folder)) {
     TRY(run_resume(run, arguments->folder, command->trace, &store));

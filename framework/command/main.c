@@ -11,6 +11,7 @@
 #include "command/command.h"
 #include "command/help.h"
 #include "command/options.h"
+#include "registry/guard.h"
 
 static const struct entry {
   const char *name;
@@ -145,6 +146,7 @@ int main(int argc, char **argv)
   }
   signal(SIGPIPE, SIG_DFL);
   signal(SIGXFSZ, SIG_IGN); /* the write then fails, and is told as any other */
+  guard_install(GUARD_CALL_SECONDS);
   gsl_set_error_handler_off();
   H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   gamut_status status = dispatch(argc, argv, trace);
@@ -156,5 +158,6 @@ int main(int argc, char **argv)
     trace_note(trace, "%s", status_text(status));
   trace_print(trace, stderr);
   trace_free(trace);
+  guard_finish();
   return (int)status;
 }

@@ -4,6 +4,7 @@
 
 #include "field/vocabulary.h"
 #include "material/law.h"
+#include "registry/guard.h"
 
 enum { GUARD = 8 };
 
@@ -156,7 +157,9 @@ void bench_call(struct bench *bench, kernel_function operation, size_t count)
   double *temperature = bench_array(bench, "temperature");
   if (bench->strength && temperature)
     memcpy(bench->strength->strength.temperature, temperature, count * sizeof *temperature);
+  const char *before = guard_enter(bench->kernel->descriptor->id);
   operation(bench->image);
+  guard_leave(before);
 }
 
 /* The output whose derivatives are declared, at one point, with argument `by` moved by `step`. */

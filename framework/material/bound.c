@@ -4,6 +4,7 @@
 
 #include "field/vocabulary.h"
 #include "material/bound.h"
+#include "registry/guard.h"
 
 enum { SLACK = 24 };
 
@@ -267,11 +268,18 @@ static void follow(struct bound_material *bound, struct seat *seat,
   fill_argument(strength->plastic_strain, bound->plastic_strain, chunk);
 }
 
+static void call(const struct bound_material *bound, kernel_function function, struct image *image)
+{
+  const char *before = guard_enter(bound->kernel[ELASTICITY]->descriptor->id);
+  function(image);
+  guard_leave(before);
+}
+
 void material_update(struct bound_material *bound, const struct gamut_chunk *chunk)
 {
   struct seat *seat = &bound->seat[chunk->thread];
   follow(bound, seat, chunk);
-  bound->kernel[ELASTICITY]->main(seat->image);
+  call(bound, bound->kernel[ELASTICITY]->main, seat->image);
 }
 
 void material_tally(struct bound_material *bound, const struct gamut_chunk *chunk)
@@ -328,7 +336,7 @@ void material_start(struct bound_material *bound, const struct gamut_chunk *chun
   carry_state(bound, chunk);
   follow(bound, seat, chunk);
   if (start)
-    start(seat->image);
+    call(bound, start, seat->image);
 }
 
 const struct kernel *material_kernel(const struct bound_material *bound, enum gamut_kind kind)

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "registry/guard.h"
+
 enum { SLACK = 24 };
 
 static bool has_row(const struct kernel *kernel, size_t slot)
@@ -23,11 +25,18 @@ static bool is_result(const struct slot *slot)
   return slot->kind == SLOT_OUTPUT || slot->kind == SLOT_STATE_END;
 }
 
+static void call(const struct law *law, struct image *image)
+{
+  const char *before = guard_enter(law->kernel->descriptor->id);
+  law->kernel->main(image);
+  guard_leave(before);
+}
+
 /* Evaluates every point in place. */
 static void evaluate_all(struct law *law)
 {
   memset(law->image->status, 0, law->image->count * sizeof *law->image->status);
-  law->kernel->main(law->image);
+  call(law, law->image);
 }
 
 static void gather(struct law *law, const uint32_t *lane, size_t lanes)
@@ -62,7 +71,7 @@ static void evaluate(struct law *law, const uint32_t *lane, size_t lanes)
   gather(law, lane, lanes);
   memset(law->compact->status, 0, lanes * sizeof *law->compact->status);
   law->compact->count = lanes;
-  law->kernel->main(law->compact);
+  call(law, law->compact);
   spread(law, lane, lanes);
 }
 

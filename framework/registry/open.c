@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "registry/guard.h"
 #include "registry/inside.h"
 
 typedef void (*operation)(void);
@@ -100,7 +101,9 @@ static gamut_status load_object(struct registry *registry, struct entry *entry, 
   registry->started = true;
   /* libltdl binds late and calls every failure "file not found"; this binds all symbols now and
    * knows the reason. */
+  const char *before = guard_enter_long(entry->descriptor->id);
   void *early = dlopen(file, RTLD_NOW | RTLD_LOCAL);
+  guard_leave(before);
   if (!early)
     return refuse(entry, trace, "its shared object cannot be loaded: %s", dlerror());
   lt_dladvise advise;

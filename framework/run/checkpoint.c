@@ -4,6 +4,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "registry/guard.h"
 #include "run/restart.h"
 #include "store/checkpoint.h"
 
@@ -140,15 +141,20 @@ done:
   return status;
 }
 
-static gamut_status put_state(const struct writing *w, const char *path, const void *self,
+static gamut_status put_state(const struct writing *w, const char *plugin, const char *path,
+                              const void *self,
                               size_t (*save)(const void *, void *))
 {
+  const char *before = guard_enter_long(plugin);
   size_t size = save(self, NULL);
+  guard_leave(before);
   void *bytes = malloc(size + 1);
   if (!bytes)
     return trace_fail(w->run->trace, GAMUT_INTERNAL, "out of memory");
   memset(bytes, 0, size);
+  guard_enter_long(plugin);
   save(self, bytes);
+  guard_leave(before);
   gamut_status status = put(w, path, CHECKPOINT_BYTES, bytes, size);
   free(bytes);
   return status;
@@ -168,7 +174,8 @@ static gamut_status put_effects(const struct writing *w)
               FLAG_COUNTS));
     }
     if (effect->ops->save && effect->ops->restore)
-      TRY(put_state(w, restart_path(path, "effects", name, "state"), effect->self,
+      TRY(put_state(w, effect->effect->instance.descriptor->id,
+                    restart_path(path, "effects", name, "state"), effect->self,
                     effect->ops->save));
   }
 done:
@@ -217,7 +224,8 @@ gamut_status checkpoint_write(struct gamut_run *run)
     TRY(put_set(&w, run->set[s]));
   TRY(put_materials(&w));
   TRY(put_effects(&w));
-  TRY(put_state(&w, "solver", run->solver_self, run->solver->save));
+  TRY(put_state(&w, run->scene->solver.descriptor->id, "solver", run->solver_self,
+                run->solver->save));
   status = checkpoint_end(w.file, trace);
   w.file = NULL;
   run->checkpoint_wall = wall_now();

@@ -6,6 +6,7 @@
 #endif
 
 #include "field/vocabulary.h"
+#include "registry/guard.h"
 #include "run/host.h"
 
 enum {
@@ -87,7 +88,7 @@ static gamut_status create_solver(struct gamut_run *run)
   }
   TRY(declare_outputs(run));
   TRY(declare_states(run, run->scene->solver.descriptor));
-  TRY(ops->create(run, instance->values, &run->solver_self));
+  TRY(GUARDED(instance->descriptor->id, ops->create(run, instance->values, &run->solver_self)));
   run->solver = ops;
   if ((run->scene->checkpoint_every > 0.0 || run->scene->checkpoint_wall > 0.0) &&
       !run_can_stop(run))
@@ -98,13 +99,21 @@ done:
   return status;
 }
 
+static gamut_status run_inner(const struct material_job *job, const struct gamut_chunk *chunk)
+{
+  const char *before = guard_enter(job->run->scene->solver.descriptor->id);
+  gamut_status status = job->inner(job->self, chunk);
+  guard_leave(before);
+  return status;
+}
+
 static gamut_status run_material_job(void *self, const struct gamut_chunk *chunk)
 {
   struct material_job *job = self;
   struct bound_material *material = job->run->material[set_material(chunk->set)];
   gamut_status status = GAMUT_OK;
   if (job->inner)
-    status = job->inner(job->self, chunk);
+    status = run_inner(job, chunk);
   else
     material_update(material, chunk);
   material_tally(material, chunk);
@@ -160,15 +169,24 @@ done:
   return status;
 }
 
+/* Whose code a task is that is added now. */
+static const char *adding(const struct gamut_run *run)
+{
+  return run->creating ? run->creating->effect->instance.descriptor->id
+                       : run->scene->solver.descriptor->id;
+}
+
 gamut_status run_add_task(struct gamut_run *run, const char *owner, const struct gamut_task *task,
                           size_t only_set, const bool *on_set)
 {
   gamut_status status = GAMUT_OK;
   TRY(declare_used(run, task));
-  if (!task->material)
-    return schedule_add(run->schedule, owner, place_of_owner(run), task, run->fields, only_set,
-                        on_set, run->trace);
-  for (size_t s = 0; s < run->scene->bodies; s++)
+  if (!task->material) {
+    TRY(schedule_add(run->schedule, owner, place_of_owner(run), task, run->fields, only_set,
+                     on_set, run->trace));
+    schedule_plugin(run->schedule, adding(run));
+  }
+  for (size_t s = 0; task->material && s < run->scene->bodies; s++)
     TRY(add_material_task(run, owner, task, s));
 done:
   return status;

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "field/vocabulary.h"
+#include "registry/guard.h"
 #include "run/inside.h"
 
 static gamut_status make_kernels(struct gamut_run *run, struct running_effect *effect)
@@ -27,8 +28,13 @@ done:
 static bool declines(struct gamut_run *run, struct running_effect *effect)
 {
   char why[256] = "it declined";
-  if (effect->effect->enabled == EFFECT_ON || !effect->ops->decline ||
-      !effect->ops->decline(effect->self, effect->effect->instance.values, why, sizeof why))
+  const struct instance *instance = &effect->effect->instance;
+  if (effect->effect->enabled == EFFECT_ON || !effect->ops->decline)
+    return false;
+  const char *before = guard_enter_long(instance->descriptor->id);
+  bool declined = effect->ops->decline(effect->self, instance->values, why, sizeof why);
+  guard_leave(before);
+  if (!declined)
     return false;
   schedule_decline(run->schedule, effect->label, why);
   return true;
@@ -97,7 +103,8 @@ static gamut_status create_one(struct gamut_run *run, const struct effect *from)
   TRY(declare_states(run, from->instance.descriptor));
   run->creating = effect;
   if (effect->ops->create)
-    TRY(effect->ops->create(run, from->instance.values, &effect->self));
+    TRY(GUARDED(from->instance.descriptor->id,
+                effect->ops->create(run, from->instance.values, &effect->self)));
   effect->created = true;
   if (declines(run, effect))
     goto done;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "field/vocabulary.h"
+#include "registry/guard.h"
 #include "run/host.h"
 
 static const char *owner_of(const struct gamut_run *run)
@@ -235,7 +236,8 @@ static gamut_status host_plane(struct gamut_run *run, const struct gamut_plane *
     return trace_fail(run->trace, GAMUT_SCENE, "%s needs planes, which %s does not offer",
                       owner_of(run), run->scene->solver.descriptor->id);
   const struct gamut_reaction *made = NULL;
-  gamut_status status = run->solver->plane(run->solver_self, plane, &made);
+  gamut_status status = GUARDED(run->scene->solver.descriptor->id,
+                                run->solver->plane(run->solver_self, plane, &made));
   if (reaction)
     *reaction = made;
   if (status != GAMUT_OK || !run->creating)

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "random/stream.h"
+#include "registry/guard.h"
 #include "run/host.h"
 
 struct field_operations {
@@ -71,7 +72,7 @@ static gamut_status make_field(struct gamut_run *run, const struct value *value,
                         "%s lacks one of the operations create, destroy, sample", value->model->id);
     goto done;
   }
-  TRY(chance->ops->create(run, value->group, &chance->self));
+  TRY(GUARDED(value->model->id, chance->ops->create(run, value->group, &chance->self)));
   tree_path(value->node, chance->path, sizeof chance->path);
   chance->next = run->chance;
   run->chance = chance;
@@ -154,7 +155,8 @@ static gamut_status sample_field(struct gamut_run *run, const struct value *valu
   struct chance *chance = NULL;
   const struct gamut_stream stream = host_stream(run, name);
   TRY(find_field(run, value, &chance));
-  TRY(chance->ops->sample(chance->self, &stream, count, position, id, sampled));
+  TRY(GUARDED(value->model->id,
+              chance->ops->sample(chance->self, &stream, count, position, id, sampled)));
   for (size_t i = 0; i < count; i++)
     if (!isfinite(sampled[i])) {
       status = trace_fail(run->trace, GAMUT_NUMERICS,

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "registry/guard.h"
 #include "run/host.h"
 
 /* One effect that takes points out. */
@@ -58,8 +59,9 @@ gamut_status host_removal(struct gamut_run *run, const struct gamut_removal *rul
   struct leaving *leaving = new_leaving(run, rule);
   if (!leaving)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
-  TRY(run->solver->removal(run->solver_self, leaving->name, run->creating->effect->on_body,
-                           &leaving->rule, &leaving->sum, mark));
+  TRY(GUARDED(run->scene->solver.descriptor->id,
+              run->solver->removal(run->solver_self, leaving->name, run->creating->effect->on_body,
+                                   &leaving->rule, &leaving->sum, mark)));
   run->spare.component = field.first;
   if (rule->flagged)
     TRY(spare_flagged(run, *mark));

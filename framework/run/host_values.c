@@ -1,5 +1,6 @@
 #include <stdlib.h>
 
+#include "registry/guard.h"
 #include "run/host.h"
 
 /* Asking for a value that the descriptor does not declare, or not with that type, is a fault of the
@@ -13,6 +14,7 @@ static const struct value *demand(const struct gamut_values *values, const char 
   fprintf(stderr, "gamut: the plugin with the values '%s' asks for '%s', which its descriptor %s\n",
           values->path ? values->path : "", path,
           value ? "declares with another type" : "does not declare");
+  guard_finish();
   exit(GAMUT_PLUGIN);
 }
 

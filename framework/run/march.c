@@ -3,6 +3,7 @@
 #include <time.h>
 
 #include "field/vocabulary.h"
+#include "registry/guard.h"
 #include "run/inside.h"
 
 /* How often the progress is told, in wall seconds. */
@@ -16,6 +17,11 @@ static double clock_now(clockid_t clock)
   struct timespec now;
   clock_gettime(clock, &now);
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static const char *solver_of(const struct gamut_run *run)
+{
+  return run->scene->solver.descriptor->id;
 }
 
 static void set_uniform_field(struct gamut_run *run, const char *name, double value)
@@ -32,7 +38,7 @@ gamut_status march_start(struct gamut_run *run)
     return run->start;
   run->started = true;
   set_uniform_field(run, "time_step", 0.0);
-  TRY(run->solver->start(run->solver_self));
+  TRY(GUARDED(solver_of(run), run->solver->start(run->solver_self)));
   TRY(host_laws_check(run));
   TRY(start_check(run));
   TRY(stop_check(run));
@@ -60,7 +66,7 @@ static gamut_status choose_step(struct gamut_run *run, double *step)
   *step = run->end > 0.0 ? left : INFINITY;
   if (run->steps > 0)
     *step = fmin(*step, factor * run->step);
-  TRY(run->solver->next(run->solver_self, step));
+  TRY(GUARDED(solver_of(run), run->solver->next(run->solver_self, step)));
   /* A sliver of a last step would be all rounding. */
   if (run->end > 0.0 && *step > 0.0 && left - *step < 1e-9 * *step)
     *step = left;
@@ -107,7 +113,7 @@ gamut_status march_step(struct gamut_run *run, bool *more)
   run->steps++;
   TRY(stop_check(run));
   if (run->solver->after)
-    TRY(run->solver->after(run->solver_self));
+    TRY(GUARDED(solver_of(run), run->solver->after(run->solver_self)));
   TRY(ledger_check(run));
   TRY(observe_after(run, due, false));
   TRY(frames_due(run));

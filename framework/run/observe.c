@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "registry/guard.h"
 #include "run/inside.h"
 
 static struct running_effect *effect_called(struct gamut_run *run, const char *name)
@@ -226,11 +227,13 @@ static gamut_status probe_value(struct gamut_run *run, struct probe *probe,
   const struct gamut_body *body = q->body >= 0 ? &run->scene->body[q->body] : NULL;
   if (probe->effect ? probe->effect->ops->measure : run->solver->measure) {
     run->measuring = q;
-    gamut_status status =
+    guard_push(probe->effect ? probe->effect->effect->instance.descriptor->id
+                             : run->scene->solver.descriptor->id);
+    gamut_status status = guard_pop(
         probe->effect
             ? probe->effect->ops->measure(probe->effect->self, measure->name, body, q->arguments,
                                           value)
-            : run->solver->measure(run->solver_self, measure->name, body, q->arguments, value);
+            : run->solver->measure(run->solver_self, measure->name, body, q->arguments, value));
     run->measuring = NULL;
     return status;
   }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "registry/guard.h"
 #include "run/restart.h"
 #include "store/checkpoint.h"
 #include "store/file.h"
@@ -190,7 +191,8 @@ done:
   return status;
 }
 
-static gamut_status get_state(const struct reading_back *r, const char *path, void *self,
+static gamut_status get_state(const struct reading_back *r, const char *plugin, const char *path,
+                              void *self,
                               gamut_status (*restore)(void *, const void *, size_t))
 {
   void *bytes;
@@ -198,7 +200,7 @@ static gamut_status get_state(const struct reading_back *r, const char *path, vo
   gamut_status status = get(r, path, CHECKPOINT_BYTES, &bytes, &size);
   if (status != GAMUT_OK)
     return status;
-  status = restore(self, bytes, size);
+  status = GUARDED(plugin, restore(self, bytes, size));
   if (status != GAMUT_OK && trace_errors(r->run->trace) == 0)
     trace_fail(r->run->trace, status, "'%s' of the checkpoint in '%s' does not fit", path,
                r->folder);
@@ -220,7 +222,8 @@ static gamut_status get_effects(const struct reading_back *r)
       effect_go_on(effect->bound, count);
     }
     if (effect->ops->save && effect->ops->restore)
-      TRY(get_state(r, restart_path(path, "effects", name, "state"), effect->self,
+      TRY(get_state(r, effect->effect->instance.descriptor->id,
+                    restart_path(path, "effects", name, "state"), effect->self,
                     effect->ops->restore));
   }
 done:
@@ -238,7 +241,8 @@ static gamut_status get_all(const struct reading_back *r)
     TRY(get_set(r, run->set[s]));
   TRY(get_materials(r));
   TRY(get_effects(r));
-  TRY(get_state(r, "solver", run->solver_self, run->solver->restore));
+  TRY(get_state(r, run->scene->solver.descriptor->id, "solver", run->solver_self,
+                run->solver->restore));
 done:
   return status;
 }

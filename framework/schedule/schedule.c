@@ -137,6 +137,11 @@ done:
   return status;
 }
 
+void schedule_plugin(struct schedule *schedule, const char *plugin)
+{
+  schedule->task[schedule->tasks - 1]->plugin = plugin;
+}
+
 static gamut_status add_declined(struct schedule *schedule, const char *owner, const char *why)
 {
   struct declined *grown = realloc(schedule->declined, (schedule->declines + 1) * sizeof *grown);

@@ -12,6 +12,7 @@
 struct task {
   char *name, *owner;         /* owner: "solver", "material copper", "effect heat" */
   struct place place;         /* of the owner in the scene; no file: none */
+  const char *plugin;         /* borrowed: whose code it is; null: the core's */
   size_t phase;
   enum gamut_extent extent;
   struct use { struct field *field; enum gamut_access access; } *use;
@@ -40,6 +41,8 @@ void schedule_free(struct schedule *);
 gamut_status schedule_add(struct schedule *, const char *owner, const struct place *place,
                           const struct gamut_task *, struct fields *, size_t only_set,
                           const bool *on_set, struct trace *);
+/* Says whose code the task that was added last is. Borrowed. */
+void schedule_plugin(struct schedule *, const char *plugin);
 /* Records an effect (or task) that is off, with the reason, for explain. */
 void schedule_decline(struct schedule *, const char *owner, const char *why);
 /* Somebody outside the tasks ("quantity speed") reads this field between steps, on one set or, with

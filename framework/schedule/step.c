@@ -1,5 +1,6 @@
 #include <stdlib.h>
 
+#include "registry/guard.h"
 #include "schedule/plan.h"
 
 #ifdef _OPENMP
@@ -25,13 +26,23 @@ static gamut_status list_pieces(struct schedule *schedule, const struct march *m
   return GAMUT_OK;
 }
 
+static gamut_status run_task(const struct task *task, const struct gamut_chunk *chunk)
+{
+  if (!task->plugin)
+    return task->run(task->self, chunk);
+  const char *before = chunk ? guard_enter(task->plugin) : guard_enter_long(task->plugin);
+  gamut_status status = task->run(task->self, chunk);
+  guard_leave(before);
+  return status;
+}
+
 static gamut_status run_tasks(struct task *const *task, size_t tasks,
                               const struct gamut_chunk *chunk)
 {
   for (size_t i = 0; i < tasks; i++) {
     if (!task_on_set(task[i], chunk->set->index))
       continue;
-    gamut_status status = task[i]->run(task[i]->self, chunk);
+    gamut_status status = run_task(task[i], chunk);
     if (status != GAMUT_OK)
       return status;
   }
@@ -101,7 +112,7 @@ gamut_status schedule_step(struct schedule *schedule, const struct march *march)
   for (size_t s = 0; s < schedule->sweeps; s++) {
     const struct sweep *sweep = &schedule->sweep[s];
     if (sweep->once)
-      TRY(sweep->chunk[0]->run(sweep->chunk[0]->self, NULL));
+      TRY(run_task(sweep->chunk[0], NULL));
     else
       TRY(run_sweep(schedule, sweep, march));
   }

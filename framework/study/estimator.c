@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "random/stream.h"
+#include "registry/guard.h"
 #include "run/host.h"
 #include "study/inside.h"
 
@@ -86,8 +87,9 @@ gamut_status estimator_new(struct study *study)
       .quantities = values,
       .levels = study->levels,
       .stream = stream_make(study->scene->seed, 0, "uncertainty.estimator")};
-  TRY(ops->create((struct gamut_run *)(void *)&study->host, instance->values, &shape,
-                  &study->self));
+  TRY(GUARDED(instance->descriptor->id,
+              ops->create((struct gamut_run *)(void *)&study->host, instance->values, &shape,
+                          &study->self)));
   study->ops = ops;
 done:
   return status;

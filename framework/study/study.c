@@ -6,6 +6,7 @@
 #include <omp.h>
 #endif
 
+#include "registry/guard.h"
 #include "study/inside.h"
 
 static double now(void)
@@ -180,6 +181,11 @@ static gamut_status run_rows(struct study *study, size_t first)
   return end == GAMUT_OK && told_to_stop(study) ? GAMUT_STOPPED : end;
 }
 
+static const char *estimator_of(const struct study *study)
+{
+  return study->scene->estimator.descriptor->id;
+}
+
 static gamut_status tell(struct study *study, size_t first)
 {
   for (size_t r = 0; r < study->batch.rows; r++) {
@@ -187,7 +193,7 @@ static gamut_status tell(struct study *study, size_t first)
     for (size_t q = 0; q < study->values; q++)
       study->told[r * study->values + q] = o->reason ? NAN : o->value[q];
   }
-  return study->ops->tell(study->self, &study->batch);
+  return GUARDED(estimator_of(study), study->ops->tell(study->self, &study->batch));
 }
 
 static gamut_status judge_failures(struct study *study)
@@ -212,7 +218,7 @@ static gamut_status run_batches(struct study *study)
     size_t first = study->runs;
     study->batch.rows = 0;
     memset(study->batch.level, 0, study->batch.capacity * sizeof *study->batch.level);
-    TRY(study->ops->ask(study->self, &study->batch));
+    TRY(GUARDED(estimator_of(study), study->ops->ask(study->self, &study->batch)));
     if (study->batch.rows == 0)
       break;
     TRY(list_rows(study));
@@ -223,7 +229,7 @@ static gamut_status run_batches(struct study *study)
   if (study->runs == 0)
     return trace_fail(study->trace, GAMUT_SCENE, "%s asks for no run",
                       study->scene->estimator.descriptor->id);
-  TRY(study->ops->report(study->self, &study->moments));
+  TRY(GUARDED(estimator_of(study), study->ops->report(study->self, &study->moments)));
 done:
   return status;
 }

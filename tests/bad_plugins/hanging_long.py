@@ -1,0 +1,34 @@
+"""A kernel that takes more than 60 s over one block of points is ended and named; the last
+checkpoint is kept. Prints TAP."""
+import os
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import kernels  # noqa: E402
+
+
+def main():
+    with tempfile.TemporaryDirectory() as root:
+        kernels.strength(root, "waits", kernels.STRENGTH +
+                         "    if (b->plastic_strain[i] > 0.2) for (;;) pause();\n",
+                         "#include <unistd.h>\n")
+        with open(os.path.join(root, "waits.yaml"), "w", encoding="utf-8") as file:
+            file.write(kernels.scene("waits", more="outputs: {checkpoint: {every: 0.1 s}}\n"))
+        begun = time.monotonic()
+        code, said = kernels.gamut(["--plugin-path", root, "run", "waits.yaml", "-o", "r"], root)
+        took = time.monotonic() - begun
+        good = code == 4 and "plugin strength/waits hangs" in said
+        print(("ok" if good else "not ok") + f" 1 - exit {code} and the plugin's name")
+        print(("ok" if 59 < took < 63 else "not ok") + f" 2 - after {took:.1f} s (59 to 63)")
+        kept = os.path.exists(os.path.join(root, "r", "checkpoint.h5"))
+        print(("ok" if kept else "not ok") + " 3 - the last checkpoint is kept")
+        for line in said.splitlines():
+            print("# " + line)
+        print("1..3")
+        return not (good and 59 < took < 63 and kept)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
