@@ -79,6 +79,7 @@ static gamut_status write_results(struct gamut_run *run, struct store *store, ga
     return trace_fail(command->trace, GAMUT_INTERNAL, "out of memory");
   TRY(store_histories(store, history, count, command->trace));
   TRY(store_summary(store, summary, command->trace));
+  TRY(store_finish(store, command->trace));
   if (arguments->json) {
     puts(summary);
   } else {

@@ -136,6 +136,7 @@ static gamut_status run_and_record(struct gamut_session *session, struct scene *
     struct history *const *history = run_histories(run, &count);
     TRY(store_histories(store, history, count, session->trace));
     TRY(store_summary(store, *summary, session->trace));
+    TRY(store_finish(store, session->trace));
   }
   status = marched;
 done:

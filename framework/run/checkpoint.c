@@ -47,9 +47,11 @@ static gamut_status put_clock(const struct writing *w)
   const struct store_place place = store_place_of(run->store);
   const double real[RESTART_REALS] = {run->time, run->step, place.last_time};
   const int64_t whole[RESTART_WHOLES] = {(int64_t)run->steps, (int64_t)place.frames,
-                                         (int64_t)place.last_step, (int64_t)run->scene->bodies};
+                                         (int64_t)place.last_step, (int64_t)run->scene->bodies,
+                                         (int64_t)place.checksum};
   TRY(put(w, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
   TRY(put(w, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
+  TRY(put_text(w, "run", place.run));
   TRY(put_text(w, "frames", place.xdmf));
 done:
   return status;
@@ -215,6 +217,7 @@ gamut_status checkpoint_write(struct gamut_run *run)
   gamut_status status;
   struct writing w = {.run = run};
   struct trace *trace = run->trace;
+  TRY(store_sync(run->store, trace));
   TRY(checkpoint_begin(store_folder(run->store), checkpoint_bytes(run), trace, &w.file));
   TRY(put_scene(&w));
   TRY(put_clock(&w));

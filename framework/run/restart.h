@@ -5,8 +5,8 @@
 #include "run/inside.h"
 
 /* Arrays "clock" (time, last step, time of the last frame) and "counts" (steps, frames, step of the
- * last frame, bodies). */
-enum { RESTART_REALS = 3, RESTART_WHOLES = 4, RESTART_PATH = 512 };
+ * last frame, bodies, checksum of the frames); "run" is the id of the result that they are in. */
+enum { RESTART_REALS = 3, RESTART_WHOLES = 5, RESTART_PATH = 512 };
 
 /* "bodies/bar/id"; returns `path`. */
 const char *restart_path(char path[RESTART_PATH], const char *group, const char *name,

@@ -45,14 +45,35 @@ done:
   return status;
 }
 
-static gamut_status get_clock(const struct reading_back *r, struct store_place *place)
+/* How far the results had come. The texts are to be freed. */
+static gamut_status get_place(const struct reading_back *r, struct store_place *place)
+{
+  gamut_status status;
+  double real[RESTART_REALS];
+  int64_t whole[RESTART_WHOLES];
+  void *xdmf = NULL, *id = NULL;
+  size_t size;
+  TRY(fill(r, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
+  TRY(fill(r, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
+  TRY(get(r, "run", CHECKPOINT_BYTES, &id, &size));
+  place->run = id;
+  TRY(get(r, "frames", CHECKPOINT_BYTES, &xdmf, &size));
+  *place = (struct store_place){.frames = (size_t)whole[1],
+                                .last_time = real[2],
+                                .last_step = (uint64_t)whole[2],
+                                .checksum = (uint64_t)whole[4],
+                                .run = id,
+                                .xdmf = xdmf};
+done:
+  return status;
+}
+
+static gamut_status get_clock(const struct reading_back *r)
 {
   gamut_status status;
   struct gamut_run *run = r->run;
   double real[RESTART_REALS];
   int64_t whole[RESTART_WHOLES];
-  void *xdmf;
-  size_t size;
   TRY(fill(r, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
   TRY(fill(r, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
   if (run->end > 0.0 && run->end < real[0]) {
@@ -62,14 +83,9 @@ static gamut_status get_clock(const struct reading_back *r, struct store_place *
                            r->folder, real[0], run->end);
     goto done;
   }
-  TRY(get(r, "frames", CHECKPOINT_BYTES, &xdmf, &size));
   run->time = real[0];
   run->step = real[1];
   run->steps = (uint64_t)whole[0];
-  *place = (struct store_place){.frames = (size_t)whole[1],
-                                .last_time = real[2],
-                                .last_step = (uint64_t)whole[2],
-                                .xdmf = xdmf};
 done:
   return status;
 }
@@ -234,6 +250,8 @@ static gamut_status get_all(const struct reading_back *r)
 {
   gamut_status status;
   struct gamut_run *run = r->run;
+  TRY(run_start(run, run->trace));
+  TRY(get_clock(r));
   TRY(get_ledger(r));
   for (size_t i = 0; i < run->probes; i++)
     TRY(get_history(r, run->history[i]));
@@ -243,7 +261,68 @@ static gamut_status get_all(const struct reading_back *r)
   TRY(get_effects(r));
   TRY(get_state(r, run->scene->solver.descriptor->id, "solver", run->solver_self,
                 run->solver->restore));
+  run->resumed = true;
+  frames_go_on(run);
 done:
+  return status;
+}
+
+/* What the summary in a folder says of how the run ended. */
+static bool ended(const char *folder, const char *how)
+{
+  char *path = file_path(folder, "summary.json");
+  json_t *summary = path ? json_load_file(path, 0, NULL) : NULL;
+  const char *ending = json_string_value(json_object_get(summary, "status"));
+  bool so = ending && strcmp(ending, how) == 0;
+  json_decref(summary);
+  free(path);
+  return so;
+}
+
+/* A run that was killed, or failed, and left nothing to go on from begins anew: all that stands
+ * there comes out again. */
+static gamut_status begin_anew(const struct reading_back *r, const char *why, struct store *store)
+{
+  gamut_status status = GAMUT_OK;
+  struct tree *was = NULL;
+  char *path = file_path(r->folder, "scene.yaml");
+  if (path && file_exists(path)) {
+    TRY(tree_read(path, GAMUT_OUTPUT, r->run->trace, &was));
+    TRY(restart_same_scene(was, r->run->scene->tree, r->folder, r->run->trace));
+  }
+  trace_note(r->run->trace, "%s in '%s': the run begins anew", why, r->folder);
+  status = store_begin(store, true, r->run->trace);
+done:
+  tree_free(was);
+  free(path);
+  return status;
+}
+
+/* Results first, as far as the checkpoint counts on them; then the state; then they are joined. */
+static gamut_status go_on(const struct reading_back *r, bool in_order, struct store *store)
+{
+  gamut_status status;
+  struct store_place place = {0};
+  struct trace *trace = r->run->trace, *unheard = NULL;
+  bool damaged = false;
+  TRY(check_scene(r));
+  TRY(get_place(r, &place));
+  /* what killed the run may have caught it while it wrote */
+  unheard = in_order ? NULL : trace_new();
+  status = store_reopen(store, &place, unheard ? unheard : trace, &damaged);
+  if (unheard && damaged) {
+    status = begin_anew(r, "the run was cut off while it wrote its results", store);
+    goto done;
+  }
+  if (unheard && status != GAMUT_OK)
+    trace_fail(trace, status, "%s", trace_first(unheard, MESSAGE_ERROR));
+  TRY(status);
+  TRY(get_all(r));
+  TRY(store_join(store, trace));
+done:
+  trace_free(unheard);
+  free((char *)(size_t)place.xdmf);
+  free((char *)(size_t)place.run);
   return status;
 }
 
@@ -251,44 +330,33 @@ gamut_status run_resume(struct gamut_run *run, const char *folder, struct trace 
                         struct store **store)
 {
   gamut_status status;
+  struct reading_back r = {run, NULL, folder};
   struct checkpoint *file = NULL;
-  struct store_place place = {0};
+  bool in_order = ended(folder, "done") || ended(folder, "interrupted");
   run->trace = trace;
   *store = NULL;
   if (!run_can_stop(run))
     return trace_fail(trace, GAMUT_PLUGIN, "%s cannot go on with a run: it has no `restore`",
                       run->scene->solver.descriptor->id);
+  TRY(store_hold(folder, trace, store));
   TRY(checkpoint_open(folder, trace, &file));
-  if (!file) {
+  r.file = file;
+  if (file)
+    status = go_on(&r, in_order, *store);
+  else if (!in_order)
+    status = begin_anew(&r, "there is nothing to go on from", *store);
+  else
     status = trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL,
                            "--force runs the scene anew; outputs.checkpoint leaves checkpoints on "
                            "the way",
                            "'%s' holds a result, but no checkpoint to go on from", folder);
-    goto done;
-  }
-  const struct reading_back r = {run, file, folder};
-  TRY(check_scene(&r));
-  TRY(run_start(run, trace));
-  TRY(get_clock(&r, &place));
-  TRY(get_all(&r));
-  run->resumed = true;
-  frames_go_on(run);
-  TRY(store_reopen(folder, &place, trace, store));
 done:
-  free((char *)(size_t)place.xdmf);
   checkpoint_close(file);
+  if (status != GAMUT_OK) {
+    store_close(*store);
+    *store = NULL;
+  }
   return status;
-}
-
-static bool says_done(const char *folder)
-{
-  char *path = file_path(folder, "summary.json");
-  json_t *summary = path ? json_load_file(path, 0, NULL) : NULL;
-  const char *ending = json_string_value(json_object_get(summary, "status"));
-  bool done = ending && strcmp(ending, "done") == 0;
-  json_decref(summary);
-  free(path);
-  return done;
 }
 
 gamut_status run_finished(const struct scene *scene, const char *folder, struct trace *trace,
@@ -298,7 +366,7 @@ gamut_status run_finished(const struct scene *scene, const char *folder, struct 
   struct tree *was = NULL;
   char *path = NULL;
   *finished = false;
-  if (!says_done(folder))
+  if (!ended(folder, "done"))
     return GAMUT_OK;
   path = file_path(folder, "scene.yaml");
   if (!path || !file_exists(path))

@@ -46,8 +46,9 @@ gamut_status run_start(struct gamut_run *, struct trace *);
 bool run_can_stop(const struct gamut_run *);
 /* In place of run_start: goes on from the last whole checkpoint in FOLDER, to the same bits as a
  * run that was never stopped, with any number of threads. *store is the folder's result without
- * later frames, for run_record. Another scene is refused with GAMUT_SCENE (only solver.end and
- * outputs may differ), another interface or version of a plugin with GAMUT_PLUGIN, by name. */
+ * later frames, for run_record. Where the run was killed or failed before it left anything to go on
+ * from, it begins anew. Another scene is refused with GAMUT_SCENE (only solver.end and outputs may
+ * differ), another interface or version of a plugin with GAMUT_PLUGIN, by name. */
 gamut_status run_resume(struct gamut_run *, const char *folder, struct trace *, struct store **);
 /* Whether FOLDER holds the whole run of this scene, up to its end. Another scene is refused. */
 gamut_status run_finished(const struct scene *, const char *folder, struct trace *, bool *finished);

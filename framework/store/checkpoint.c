@@ -9,11 +9,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
 
 /* Grows when a checkpoint written before cannot be read any more. */
-enum { FORMAT = 1 };
+enum { FORMAT = 2 };
 
 struct checkpoint {
   char *folder, *path;
@@ -24,27 +25,13 @@ struct checkpoint {
 static const char mark[] = "\ngamut checksum ";
 enum { TRAILER = sizeof mark - 1 + 16 + 1 };
 
-/* FNV-1a by words of eight bytes. */
-static uint64_t sum_more(uint64_t sum, const unsigned char *bytes, size_t size)
-{
-  uint64_t word;
-  for (; size >= sizeof word; bytes += sizeof word, size -= sizeof word) {
-    memcpy(&word, bytes, sizeof word);
-    sum = (sum ^ word) * UINT64_C(0x100000001b3);
-    sum ^= sum >> 29;
-  }
-  for (; size > 0; bytes++, size--)
-    sum = (sum ^ *bytes) * UINT64_C(0x100000001b3);
-  return sum;
-}
-
 /* Over the first `size` bytes of a file; false where they cannot be read. */
 static bool sum_file(int file, size_t size, uint64_t *sum)
 {
   enum { PIECE = 1 << 20 };
   unsigned char *piece = malloc(PIECE);
   size_t done = 0;
-  *sum = UINT64_C(0xcbf29ce484222325) ^ size;
+  *sum = hash_begin(size);
   while (piece && done < size) {
     /* whole pieces only: the words must not depend on how much a read gives */
     size_t want = size - done < PIECE ? size - done : PIECE, have = 0;
@@ -58,11 +45,12 @@ static bool sum_file(int file, size_t size, uint64_t *sum)
     }
     if (have < want)
       break;
-    *sum = sum_more(*sum, piece, want);
+    *sum = hash_more(*sum, piece, want);
     done += want;
   }
+  bool whole = piece && done == size;
   free(piece);
-  return piece && done == size;
+  return whole;
 }
 
 static void write_trailer(char *text, uint64_t sum)
@@ -76,7 +64,7 @@ static int seal(const char *path)
   struct stat information;
   char trailer[TRAILER + 1];
   uint64_t sum;
-  int file = open(path, O_RDWR | O_CLOEXEC), fault = 0;
+  int file = open(path, O_RDWR | O_NOFOLLOW | O_CLOEXEC), fault = 0;
   if (file < 0)
     return errno;
   if (fstat(file, &information) != 0 || !sum_file(file, (size_t)information.st_size, &sum)) {
@@ -86,8 +74,8 @@ static int seal(const char *path)
     errno = 0;
     if (pwrite(file, trailer, TRAILER, information.st_size) != TRAILER)
       fault = errno ? errno : ENOSPC;
-    else if (fsync(file) != 0 && errno != EINVAL && errno != EROFS)
-      fault = errno;
+    else
+      fault = file_sync(file);
   }
   if (close(file) != 0 && !fault)
     fault = errno;
@@ -101,7 +89,7 @@ static const char *flaw(const char *path)
   char found[TRAILER + 1] = "", expected[TRAILER + 1];
   const char *why = NULL;
   uint64_t sum;
-  int file = open(path, O_RDONLY | O_CLOEXEC);
+  int file = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
   if (file < 0)
     return strerror(errno);
   if (fstat(file, &information) != 0 || information.st_size <= TRAILER ||
@@ -146,33 +134,16 @@ void checkpoint_close(struct checkpoint *checkpoint)
   free(checkpoint);
 }
 
-static hid_t open_file(const char *path, bool make)
-{
-  hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-#if H5_VERSION_GE(1, 10, 7)
-  H5Pset_file_locking(access, 0, 1);
-#endif
-  hid_t file = make ? H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access)
-                    : H5Fopen(path, H5F_ACC_RDONLY, access);
-  H5Pclose(access);
-  return file;
-}
-
 gamut_status checkpoint_begin(const char *folder, size_t bytes, struct trace *trace,
                               struct checkpoint **begun)
 {
   gamut_status status = GAMUT_OK;
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   struct checkpoint *checkpoint = checkpoint_new(folder, CHECKPOINT_PARTIAL);
   *begun = NULL;
   if (!checkpoint)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   checkpoint->writing = true;
-  checkpoint->file = open_file(checkpoint->path, true);
-  if (checkpoint->file < 0) {
-    status = hdf5_fault(checkpoint->path, "make", trace);
-    goto done;
-  }
+  TRY(hdf5_create(checkpoint->path, trace, &checkpoint->file));
   TRY(hdf5_reserve(checkpoint->file, bytes, checkpoint->path, trace));
   if (hdf5_whole_attribute(checkpoint->file, "gamut_checkpoint", FORMAT) < 0 ||
       hdf5_text_attribute(checkpoint->file, "gamut", GAMUT_VERSION) < 0) {
@@ -270,7 +241,7 @@ static gamut_status open_whole(const char *folder, struct trace *trace, struct c
   gamut_status status = GAMUT_OK;
   if (!checkpoint)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
-  checkpoint->file = open_file(checkpoint->path, false);
+  checkpoint->file = hdf5_open(checkpoint->path);
   double format = checkpoint->file < 0
                       ? 0.0
                       : hdf5_read_real_attribute(checkpoint->file, "gamut_checkpoint", 0.0);
@@ -314,7 +285,6 @@ gamut_status checkpoint_open(const char *folder, struct trace *trace, struct che
        *previous = file_path(folder, CHECKPOINT_PREVIOUS);
   bool there = false;
   *opened = NULL;
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   if (!last || !previous)
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   else

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -47,6 +48,55 @@ gamut_status folder_make(const char *folder, struct trace *trace)
   return status;
 }
 
+gamut_status folder_make_inside(const char *folder, struct trace *trace)
+{
+  struct stat information;
+  if (mkdir(folder, 0777) == 0)
+    return GAMUT_OK;
+  int fault = errno;
+  if (fault == EEXIST && lstat(folder, &information) == 0) {
+    if (S_ISDIR(information.st_mode))
+      return GAMUT_OK;
+    return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL, "remove it, or name another folder",
+                         "'%s' is no folder%s", folder,
+                         S_ISLNK(information.st_mode) ? ", but a link, which is not followed" : "");
+  }
+  return trace_fail(trace, GAMUT_OUTPUT, "cannot make the folder '%s': %s", folder,
+                    strerror(fault));
+}
+
+gamut_status folder_lock(const char *folder, struct trace *trace, int *lock)
+{
+  *lock = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (*lock < 0)
+    return trace_fail(trace, GAMUT_OUTPUT, "cannot open '%s': %s", folder, strerror(errno));
+  if (flock(*lock, LOCK_EX | LOCK_NB) == 0)
+    return GAMUT_OK;
+  int fault = errno;
+  close(*lock);
+  *lock = -1;
+  if (fault == EWOULDBLOCK)
+    return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL, "wait for its end, or choose another",
+                         "'%s' is in use by another gamut", folder);
+  trace_warn_at(trace, NULL, NULL, NULL,
+                "the folder '%s' cannot be locked (%s): see to it that no other gamut writes there",
+                folder, strerror(fault));
+  return GAMUT_OK;
+}
+
+int file_create(const char *path)
+{
+  if (unlink(path) != 0 && errno != ENOENT)
+    return -1;
+  return open(path, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+}
+
+int file_sync(int file)
+{
+  /* pipes and some file systems cannot be synced: what was written is all there is */
+  return fsync(file) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
+}
+
 static int write_all(int file, const char *text, size_t size)
 {
   while (size > 0) {
@@ -58,7 +108,7 @@ static int write_all(int file, const char *text, size_t size)
     text += written;
     size -= (size_t)written;
   }
-  return fsync(file) == 0 || errno == EINVAL || errno == EROFS ? 0 : errno;
+  return file_sync(file);
 }
 
 gamut_status file_replace(const char *folder, const char *name, const char *text, size_t size,
@@ -67,13 +117,13 @@ gamut_status file_replace(const char *folder, const char *name, const char *text
   gamut_status status = GAMUT_OK;
   char *path = file_path(folder, name), *partial = NULL;
   int fault = 0;
-  if (path && (partial = malloc(strlen(path) + sizeof ".partial")))
-    sprintf(partial, "%s.partial", path);
+  if (path && (partial = malloc(strlen(path) + sizeof FILE_PARTIAL)))
+    sprintf(partial, "%s" FILE_PARTIAL, path);
   if (!partial) {
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
     goto done;
   }
-  int file = open(partial, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  int file = file_create(partial);
   fault = file < 0 ? errno : write_all(file, text, size);
   if (file >= 0 && close(file) != 0 && !fault)
     fault = errno;

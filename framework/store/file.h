@@ -13,8 +13,20 @@ bool file_exists(const char *path);
 
 /* Makes the folder and its parents. */
 gamut_status folder_make(const char *folder, struct trace *);
+/* Makes FOLDER itself, which may be there, but no link that leads elsewhere. */
+gamut_status folder_make_inside(const char *folder, struct trace *);
+/* Takes a folder for this process alone until the descriptor is closed or the process ends, however
+ * it ends. GAMUT_OUTPUT where another one has it. *lock is -1 where the file system has no locks,
+ * which is warned of. */
+gamut_status folder_lock(const char *folder, struct trace *, int *lock);
 
-/* Writes FOLDER/NAME under another name, syncs it to the disk and renames it. */
+/* Opens a new file for writing: what had its name is gone, and nothing is followed. -1 and errno. */
+int file_create(const char *path);
+/* Waits until it is on the disk; an errno, or 0. */
+int file_sync(int file);
+
+#define FILE_PARTIAL ".partial"
+/* Writes FOLDER/NAME under another name (NAME.partial), syncs it to the disk and renames it. */
 gamut_status file_replace(const char *folder, const char *name, const char *text, size_t size,
                           struct trace *);
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "field/vocabulary.h"
+#include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/state.h"
 
@@ -15,7 +16,7 @@ unsigned stored_components(const struct frame_field *field)
   return field->components == 6 ? 9 : field->components;
 }
 
-static bool buffer_reserve(struct store *store, size_t size)
+bool buffer_reserve(struct store *store, size_t size)
 {
   if (size <= store->buffer_size)
     return true;
@@ -95,7 +96,7 @@ static herr_t write_field(struct store *store, hid_t group, const struct frame_s
 
 /* XDMF's points are vertices 0 .. N-1 that must be listed: one list serves all bodies of N points.
  */
-static herr_t write_vertices(struct store *store, size_t count)
+herr_t vertices_write(struct store *store, size_t count)
 {
   char name[48];
   int64_t *vertex = (int64_t *)(void *)store->buffer; /* of the same size as a double */
@@ -129,7 +130,7 @@ static herr_t write_set(struct store *store, hid_t frame, const struct frame_set
   if (result >= 0)
     result = write_ids(group, set);
   if (result >= 0)
-    result = write_vertices(store, set->count);
+    result = vertices_write(store, set->count);
   for (size_t f = 0; f < fields && result >= 0; ++f) {
     if (!is_position(&field[f]))
       result = write_field(store, group, set, number, &field[f]);
@@ -138,13 +139,19 @@ static herr_t write_set(struct store *store, hid_t frame, const struct frame_set
   return result;
 }
 
+void frame_name(size_t frame, char *name, size_t size)
+{
+  snprintf(name, size, "%08zu", frame);
+}
+
 static herr_t write_frame(struct store *store, double time, uint64_t step,
                           const struct frame_set *set, size_t sets, const struct frame_field *field,
-                          size_t fields)
+                          size_t fields, uint64_t *sum)
 {
-  char name[32];
-  snprintf(name, sizeof name, "frames/%08zu", store->frames);
-  hid_t group = H5Gcreate2(store->file, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  char name[32], path[48];
+  frame_name(store->frames, name, sizeof name);
+  snprintf(path, sizeof path, FRAMES_GROUP "/%s", name);
+  hid_t group = H5Gcreate2(store->file, path, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
   if (group < 0)
     return -1;
   herr_t result = hdf5_real_attribute(group, "time", time);
@@ -152,6 +159,8 @@ static herr_t write_frame(struct store *store, double time, uint64_t step,
     result = hdf5_whole_attribute(group, "step", (long long)step);
   for (size_t i = 0; i < sets && result >= 0; ++i)
     result = write_set(store, group, &set[i], i, field, fields);
+  if (result >= 0)
+    result = checksum_write(group, name, sum);
   H5Gclose(group);
   return result;
 }
@@ -174,6 +183,7 @@ gamut_status store_frame(struct store *store, double time, uint64_t step,
 {
   gamut_status status = GAMUT_OK;
   size_t count = 0, columns = 3;
+  uint64_t sum;
   if (store->frames > 0 && store->last_step == step && !(time > store->last_time))
     return GAMUT_OK; /* the last state of a run that stops right after a frame */
   for (size_t i = 0; i < sets; ++i) {
@@ -186,12 +196,14 @@ gamut_status store_frame(struct store *store, double time, uint64_t step,
   }
   if (!buffer_reserve(store, count * columns + 1))
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  TRY(results_there(store, trace));
   TRY(hdf5_reserve(store->file, frame_bytes(set, sets, field, fields), store->path, trace));
-  if (write_frame(store, time, step, set, sets, field, fields) < 0)
+  if (write_frame(store, time, step, set, sets, field, fields, &sum) < 0)
     return store_broken(store, trace);
   TRY(hdf5_flush(store->file, store->path, trace));
   xdmf_frame(store, time, set, sets, field, fields);
   ++store->frames;
+  store->checksum += sum;
   store->last_time = time;
   store->last_step = step;
   status = xdmf_write(store, trace);

@@ -6,7 +6,38 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+#include "store/file.h"
+
+static hid_t access_list(void)
+{
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL); /* what HDF5 has to say is in our messages */
+  H5PLset_loading_state(0);              /* no file may ask for a shared object */
+  hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+#if H5_VERSION_GE(1, 10, 7)
+  H5Pset_file_locking(access, 0, 1); /* a viewer may look during a run */
+#endif
+#if H5_VERSION_GE(1, 10, 2)
+  /* from this format on HDF5 finds damage of its own tables by itself */
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+#endif
+  return access;
+}
+
+hid_t hdf5_open(const char *path)
+{
+  struct stat information;
+  /* a name that leads elsewhere, or to no file, is nothing of ours */
+  if (lstat(path, &information) != 0 || !S_ISREG(information.st_mode))
+    return -1;
+  hid_t access = access_list(), file = H5Fopen(path, H5F_ACC_RDONLY, access);
+  hid_t reasons = H5Eget_current_stack(); /* closing the list would forget them */
+  H5Pclose(access);
+  H5Eset_current_stack(reasons);
+  return file;
+}
 
 struct reason {
   char text[256];
@@ -34,6 +65,20 @@ gamut_status hdf5_fault(const char *file, const char *what, struct trace *trace)
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, collect_reason, &reason);
   H5Eclear2(H5E_DEFAULT);
   return trace_fail(trace, GAMUT_OUTPUT, "cannot %s '%s': %s", what, file, reason.text);
+}
+
+gamut_status hdf5_create(const char *path, struct trace *trace, hid_t *file)
+{
+  /* HDF5 hides the reason of a file that cannot be made, and wants to make it itself */
+  int probe = file_create(path);
+  *file = -1;
+  if (probe < 0 || close(probe) != 0 || unlink(path) != 0)
+    return trace_fail(trace, GAMUT_OUTPUT, "cannot make '%s': %s", path, strerror(errno));
+  hid_t access = access_list();
+  *file = H5Fcreate(path, H5F_ACC_EXCL, H5P_DEFAULT, access);
+  gamut_status status = *file < 0 ? hdf5_fault(path, "make", trace) : GAMUT_OK;
+  H5Pclose(access);
+  return status;
 }
 
 /* The file's descriptor and where its contents end; false where the driver has none. */
@@ -69,6 +114,26 @@ gamut_status hdf5_flush(hid_t file, const char *path, struct trace *trace)
   if (ftruncate(descriptor, (off_t)end) != 0)
     return trace_fail(trace, GAMUT_OUTPUT, "cannot write '%s': %s", path, strerror(errno));
   return GAMUT_OK;
+}
+
+gamut_status hdf5_sync(hid_t file, const char *path, struct trace *trace)
+{
+  int descriptor;
+  hsize_t end;
+  if (!file_end(file, &descriptor, &end))
+    return hdf5_fault(path, "write", trace);
+  int fault = file_sync(descriptor);
+  return fault ? trace_fail(trace, GAMUT_OUTPUT, "cannot write '%s': %s", path, strerror(fault))
+               : GAMUT_OK;
+}
+
+bool hdf5_is_at(hid_t file, const char *path)
+{
+  int descriptor;
+  hsize_t end;
+  struct stat open, named;
+  return file_end(file, &descriptor, &end) && fstat(descriptor, &open) == 0 &&
+         lstat(path, &named) == 0 && open.st_ino == named.st_ino && open.st_dev == named.st_dev;
 }
 
 static herr_t attribute(hid_t at, const char *name, hid_t stored, hid_t memory, const void *value)
@@ -148,6 +213,17 @@ hid_t hdf5_dataset(hid_t at, const char *name, hid_t stored, hid_t memory, size_
   }
   H5Sclose(space);
   return made;
+}
+
+char *hdf5_link_name(hid_t group, size_t index)
+{
+  ssize_t size =
+      H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, NULL, 0, H5P_DEFAULT);
+  char *name = size >= 0 ? malloc((size_t)size + 1) : NULL;
+  if (name && H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, name,
+                                 (size_t)size + 1, H5P_DEFAULT) < 0)
+    name[0] = '\0';
+  return name;
 }
 
 char *hdf5_read_text_attribute(hid_t at, const char *name)

@@ -13,11 +13,20 @@
  */
 gamut_status hdf5_fault(const char *file, const char *what, struct trace *);
 
+/* Opens a file for reading, never through a link; negative on failure. */
+hid_t hdf5_open(const char *path);
+/* Makes a new file; what had its name is gone. Its metadata carry HDF5's own checksums. */
+gamut_status hdf5_create(const char *path, struct trace *, hid_t *file);
+
 /* Makes room on the disk for `bytes` more before HDF5 writes them, and gives back what is left
  * after a flush. HDF5 cannot recover from a disk that fills up while it writes: closing such a file
  * crashes. */
 gamut_status hdf5_reserve(hid_t file, size_t bytes, const char *path, struct trace *);
 gamut_status hdf5_flush(hid_t file, const char *path, struct trace *);
+/* Waits until everything is on the disk. */
+gamut_status hdf5_sync(hid_t file, const char *path, struct trace *);
+/* Whether the path still leads to the open file. */
+bool hdf5_is_at(hid_t file, const char *path);
 
 /* These return a negative value on failure; the caller asks hdf5_fault for the reason. */
 herr_t hdf5_text_attribute(hid_t at, const char *name, const char *text);
@@ -29,6 +38,8 @@ herr_t hdf5_text_dataset(hid_t at, const char *name, const char *text);
 hid_t hdf5_dataset(hid_t at, const char *name, hid_t stored, hid_t memory, size_t rows,
                    size_t columns, const void *data);
 
+/* Name of a link of a group, in order of name; allocated. */
+char *hdf5_link_name(hid_t group, size_t index);
 /* Allocated; null if absent or of another type. */
 char *hdf5_read_text_attribute(hid_t at, const char *name);
 /* `otherwise` if absent. */

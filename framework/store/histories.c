@@ -1,6 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
 #include "store/state.h"
@@ -95,6 +96,7 @@ gamut_status store_histories(struct store *store, struct history *const *history
                              struct trace *trace)
 {
   herr_t result = 0;
+  uint64_t sum;
   size_t bytes = 65536;
   gamut_status status = write_table(store, history, count, trace);
   for (size_t h = 0; h < count; ++h)
@@ -106,10 +108,15 @@ gamut_status store_histories(struct store *store, struct history *const *history
   if (H5Lexists(store->file, "quantities", H5P_DEFAULT) > 0)
     result = H5Ldelete(store->file, "quantities", H5P_DEFAULT);
   hid_t group = H5Gcreate2(store->file, "quantities", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
-  if (group < 0 || result < 0)
+  if (group < 0 || result < 0) {
+    if (group >= 0)
+      H5Gclose(group);
     return store_broken(store, trace);
+  }
   for (size_t h = 0; h < count && result >= 0; ++h)
     result = write_history(group, history[h]);
+  if (result >= 0)
+    result = checksum_write(group, CURVES_NAME, &sum);
   H5Gclose(group);
   return result >= 0 ? hdf5_flush(store->file, store->path, trace) : store_broken(store, trace);
 }

@@ -5,21 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
 #include "store/result_state.h"
 #include "store/state.h"
-
-static hid_t open_file(const char *path)
-{
-  hid_t access = H5Pcreate(H5P_FILE_ACCESS);
-#if H5_VERSION_GE(1, 10, 7)
-  H5Pset_file_locking(access, 0, 1); /* a run may be writing it */
-#endif
-  hid_t file = H5Fopen(path, H5F_ACC_RDONLY, access);
-  H5Pclose(access);
-  return file;
-}
 
 static size_t count_links(hid_t file, const char *path)
 {
@@ -34,7 +24,6 @@ gamut_status result_open(const char *folder, struct trace *trace, struct result 
 {
   gamut_status status = GAMUT_OK;
   *opened = NULL;
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   struct result *result = calloc(1, sizeof *result);
   if (result) {
     result->file = -1;
@@ -45,10 +34,10 @@ gamut_status result_open(const char *folder, struct trace *trace, struct result 
   } else if (!file_exists(result->path)) {
     status = trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL, "the folder that 'gamut run -o' made",
                            "'%s' holds no result: there is no " RESULT_HDF5, folder);
-  } else if ((result->file = open_file(result->path)) < 0) {
+  } else if ((result->file = hdf5_open(result->path)) < 0) {
     status = hdf5_fault(result->path, "read", trace);
   } else {
-    result->frames = count_links(result->file, "frames");
+    result->frames = count_links(result->file, FRAMES_GROUP);
     *opened = result;
     return GAMUT_OK;
   }
@@ -69,17 +58,6 @@ void result_close(struct result *result)
 size_t result_frames(const struct result *result)
 {
   return result->frames;
-}
-
-char *link_name(hid_t group, size_t index)
-{
-  ssize_t size =
-      H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, NULL, 0, H5P_DEFAULT);
-  char *name = size >= 0 ? malloc((size_t)size + 1) : NULL;
-  if (name)
-    H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, index, name, (size_t)size + 1,
-                       H5P_DEFAULT);
-  return name;
 }
 
 static char *dataset_unit(hid_t group, const char *name)
@@ -103,7 +81,7 @@ static bool read_deviation(hid_t group, struct result_history *history)
 static bool read_history(hid_t parent, size_t index, struct result_history *history)
 {
   size_t columns, times = 0;
-  history->name = link_name(parent, index);
+  history->name = hdf5_link_name(parent, index);
   hid_t group = history->name ? H5Gopen2(parent, history->name, H5P_DEFAULT) : -1;
   if (group < 0)
     return false;
@@ -136,6 +114,13 @@ gamut_status result_histories(const struct result *result, struct trace *trace,
     return GAMUT_OK;
   hid_t group = H5Gopen2(result->file, place, H5P_DEFAULT);
   *histories = calloc(links, sizeof **histories);
+  if (group >= 0 && !checksum_holds(group, CURVES_NAME, NULL)) {
+    H5Gclose(group);
+    free(*histories);
+    *histories = NULL;
+    return trace_fail(trace, GAMUT_OUTPUT,
+                      "the histories in '%s' are damaged: their checksum is wrong", result->path);
+  }
   bool good = group >= 0 && *histories;
   for (size_t i = 0; good && i < links; ++i) {
     *count = i + 1;

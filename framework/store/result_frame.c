@@ -3,8 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/result_state.h"
+#include "store/state.h"
 
 enum { FIELDS_MAX = 64 };
 
@@ -34,7 +36,7 @@ static size_t list_datasets(hid_t group, char *name[FIELDS_MAX])
   size_t count = 0;
   H5Gget_info(group, &information);
   for (size_t i = 0; i < (size_t)information.nlinks && count < FIELDS_MAX; ++i) {
-    char *link = link_name(group, i);
+    char *link = hdf5_link_name(group, i);
     if (link && strcmp(link, "id") != 0 && strcmp(link, "position") != 0)
       name[count++] = link;
     else
@@ -165,7 +167,7 @@ static gamut_status find_field(hid_t frame, size_t bodies, const char *field, st
   gamut_status status = GAMUT_OK;
   struct choice choice = {NULL, -1};
   for (size_t b = 0; b < bodies && count == 0; ++b) {
-    char *body = link_name(frame, b);
+    char *body = hdf5_link_name(frame, b);
     hid_t group = body ? H5Gopen2(frame, body, H5P_DEFAULT) : -1;
     count = group >= 0 ? list_datasets(group, name) : 0;
     if (count > 0 && !field)
@@ -184,7 +186,7 @@ static gamut_status find_field(hid_t frame, size_t bodies, const char *field, st
     free(body);
   }
   for (size_t b = 0; b < bodies && status == GAMUT_OK; ++b) {
-    char *body = link_name(frame, b);
+    char *body = hdf5_link_name(frame, b);
     made->bodies = b + 1;
     if (!body || !read_body(frame, body, &choice, &made->body[b]))
       status = trace_fail(trace, GAMUT_OUTPUT, "a body of the frame cannot be read");
@@ -198,17 +200,21 @@ static gamut_status find_field(hid_t frame, size_t bodies, const char *field, st
 gamut_status result_frame_read(const struct result *result, size_t index, const char *field,
                                struct trace *trace, struct result_frame **read)
 {
-  char name[32];
+  char name[32], path[48];
   H5G_info_t information = {0};
   *read = NULL;
-  snprintf(name, sizeof name, "frames/%08zu", index);
-  hid_t frame = H5Gopen2(result->file, name, H5P_DEFAULT);
+  frame_name(index, name, sizeof name);
+  snprintf(path, sizeof path, FRAMES_GROUP "/%s", name);
+  hid_t frame = H5Gopen2(result->file, path, H5P_DEFAULT);
   struct result_frame *made = calloc(1, sizeof *made);
   if (frame >= 0 && H5Gget_info(frame, &information) >= 0 && made)
     made->body = calloc((size_t)information.nlinks + 1, sizeof *made->body);
   gamut_status status;
   if (frame < 0) {
     status = hdf5_fault(result->path, "read a frame of", trace);
+  } else if (!checksum_holds(frame, name, NULL)) {
+    status = trace_fail(trace, GAMUT_OUTPUT, "frame %zu of '%s' is damaged: its checksum is wrong",
+                        index, result->path);
   } else if (!made || !made->body) {
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   } else {

@@ -12,7 +12,4 @@ struct result {
   size_t frames;
 };
 
-/* Name of a link of a group, in order of name; allocated. */
-char *link_name(hid_t group, size_t index);
-
 #endif

@@ -22,11 +22,15 @@ void text_cell(struct text *, const char *words);
 
 struct store {
   char *folder, *path; /* path of results.h5 */
+  int lock;            /* of the folder; -1: none */
   hid_t file;
-  bool broken; /* HDF5 failed: closing would fail too */
+  char run[33];        /* id of the run: a random number */
+  bool partial; /* it still has its other name */
+  bool broken;  /* HDF5 failed: closing would fail too */
   size_t frames;
   double last_time;
   uint64_t last_step;
+  uint64_t checksum; /* sum of those of the frames */
   double *buffer; /* a field of one body, row by row */
   size_t buffer_size;
   struct text xdmf; /* the frames of results.xdmf so far */
@@ -34,6 +38,7 @@ struct store {
 
 /* Names of the files of a result. */
 #define RESULT_HDF5 "results.h5"
+#define RESULT_PARTIAL "results.partial.h5"
 #define RESULT_XDMF "results.xdmf"
 #define RESULT_HISTORY "history.csv"
 #define RESULT_SUMMARY "summary.json"
@@ -43,6 +48,23 @@ struct store {
 
 /* Records why HDF5 failed; the file is then left as it is. */
 gamut_status store_broken(struct store *, struct trace *);
+
+/* folder.c: what lies in a folder. Makes way for a new result; removes what a killed run left half
+ * written; removes a file. */
+gamut_status folder_make_way(const char *folder, bool force, struct trace *);
+gamut_status folder_tidy(const char *folder, struct trace *);
+gamut_status folder_remove_file(const char *folder, const char *name, struct trace *);
+
+/* A new results.h5 under another name, with its marks; and under its own. */
+gamut_status results_make(struct store *, struct trace *);
+gamut_status results_place(struct store *, struct trace *);
+/* GAMUT_OUTPUT where the open results.h5 is no longer in the folder. */
+gamut_status results_there(struct store *, struct trace *);
+#define FRAMES_GROUP "frames"
+#define CURVES_NAME "quantities" /* in checksums, of histories and of a study's curves */
+void frame_name(size_t frame, char *name, size_t size); /* within that group */
+herr_t vertices_write(struct store *, size_t count);     /* unless they are there */
+bool buffer_reserve(struct store *, size_t size);
 
 /* One frame in XDMF, and the whole file by rename. */
 void xdmf_frame(struct store *, double time, const struct frame_set *, size_t sets,

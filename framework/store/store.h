@@ -12,30 +12,46 @@
 
 struct store;
 
-/* Creates DIR (and its parents). An existing result is refused with GAMUT_OUTPUT unless `force`,
- * which removes only files of a former result: results.h5, results.xdmf, history.csv, summary.json,
- * scene.yaml, study.csv, study.log, checkpoints and what `gamut plot` made in pictures/, and only
- * where results.h5 is one of ours.
- * Nothing is made when the scene was wrong: call this late. */
+/* Makes DIR (and its parents) and takes it: another process is refused with GAMUT_OUTPUT until the
+ * store is closed or this process ends. Nothing is in it yet. */
+gamut_status store_hold(const char *folder, struct trace *, struct store **);
+/* Begins a result in a folder that is held. An existing one is refused with GAMUT_OUTPUT unless
+ * `force`, which removes only files of a former result: results.h5, results.xdmf, history.csv,
+ * summary.json, scene.yaml, study.csv, study.log, checkpoints and what `gamut plot` made in
+ * pictures/, and only where one of results.h5, study.log and checkpoints is ours. results.h5 is
+ * born whole: it is written aside and renamed. */
+gamut_status store_begin(struct store *, bool force, struct trace *);
+/* Both. Nothing is made when the scene was wrong: call this late. */
 gamut_status store_open(const char *folder, bool force, struct trace *, struct store **);
+/* Closes results.h5, so that whatever ends the program leaves it whole; the folder stays held. */
+void store_rest(struct store *);
 /* Makes the results of a study anew whose study.log, which stays, says what has been run. */
-gamut_status store_renew(const char *folder, struct trace *, struct store **);
+gamut_status store_renew(struct store *, struct trace *);
 void store_close(struct store *); /* accepts null */
 
-/* How far the frames of a result have come; xdmf is borrowed from the store. */
+/* How far the frames of a result have come; texts are borrowed from the store. */
 struct store_place {
   size_t frames;
   double last_time;
   uint64_t last_step;
+  uint64_t checksum; /* sum of those of the frames */
+  const char *run;   /* which run's they are: its id */
   const char *xdmf;
 };
 struct store_place store_place_of(const struct store *);
-/* Opens the result in a folder to go on from a place where it has been: later frames are dropped.
- * GAMUT_OUTPUT where results.h5 is not there, not ours, broken, or lacks frames. */
-gamut_status store_reopen(const char *folder, const struct store_place *, struct trace *,
-                          struct store **);
-/* Whether the folder holds some file of a result. */
+/* Waits until the frames are on the disk, before a checkpoint counts on them. */
+gamut_status store_sync(struct store *, struct trace *);
+/* Goes on with the result in a folder that is held from a place where it has been: frames up to
+ * there are checked and copied aside. GAMUT_OUTPUT where results.h5 is not there, is another run's,
+ * or, which sets *damaged, is broken or lacks frames. Nothing has changed in the folder until
+ * store_join puts the copy in place. */
+gamut_status store_reopen(struct store *, const struct store_place *, struct trace *,
+                          bool *damaged);
+gamut_status store_join(struct store *, struct trace *);
+/* Whether the folder holds some file of a result; whether it holds no more than what stands there
+ * before the first run or frame, so that nothing is lost with it. */
 bool store_there(const char *folder);
+bool store_is_bare(const char *folder);
 
 /* One set of points in a frame: `count` real points. */
 struct frame_set {
@@ -56,7 +72,7 @@ struct frame_field {
  * time and step of the last one is not written again.
  *
  * Writes group /frames/NNNNNNNN with /BODY/position, /BODY/id and one dataset a field, attributes
- * with units; flushes; then rewrites results.xdmf by rename, so that a viewer may look during a
+ * with units, and a checksum of all that; flushes; then rewrites results.xdmf by rename, so that a viewer may look during a
  * run. */
 gamut_status store_frame(struct store *, double time, uint64_t step, const struct frame_set *,
                          size_t sets, const struct frame_field *, size_t fields, struct trace *);
@@ -68,9 +84,13 @@ gamut_status store_histories(struct store *, struct history *const *, size_t cou
  * no more than 64 kB). */
 gamut_status store_scene(struct store *, const struct tree *, struct trace *);
 gamut_status store_summary(struct store *, const char *json, struct trace *);
+/* The last look: closes results.h5, opens it again and checks that it is the one that was written,
+ * with all its frames. GAMUT_OUTPUT where somebody removed or replaced it meanwhile. */
+gamut_status store_finish(struct store *, struct trace *);
 
 /* What a study leaves. The log of finished runs is the study's own file in the folder. */
 #define RESULT_LOG "study.log"
+#define RESULT_LOG_MARK "gamut-study "
 struct table_column {
   const char *group;                 /* below the table's in results.h5; null: there itself */
   const char *name, *unit, *meaning; /* unit null: none */

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
 #include "store/state.h"
@@ -188,6 +189,7 @@ gamut_status store_curves(struct store *store, const char *group, const struct t
 {
   gamut_status status = GAMUT_OK;
   size_t bytes = 65536;
+  uint64_t sum;
   herr_t result = 0;
   if (curves == 0)
     return GAMUT_OK;
@@ -198,6 +200,8 @@ gamut_status store_curves(struct store *store, const char *group, const struct t
   hid_t at = group_at(store->file, group);
   for (size_t k = 0; at >= 0 && result >= 0 && k < curves; k++)
     result = write_curve(at, &curve[k]);
+  if (at >= 0 && result >= 0)
+    result = checksum_write(at, CURVES_NAME, &sum);
   if (at >= 0)
     H5Gclose(at);
   status = at >= 0 && result >= 0 ? hdf5_flush(store->file, store->path, trace)

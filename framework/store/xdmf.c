@@ -156,7 +156,7 @@ gamut_status xdmf_write(struct store *store, struct trace *trace)
                    "  <Domain>\n"
                    "    <Grid Name=\"frames\" GridType=\"Collection\" "
                    "CollectionType=\"Temporal\">\n");
-  text_add(&whole, "%s", store->xdmf.data ? store->xdmf.data : "");
+  text_add(&whole, "%s", store->xdmf.size ? store->xdmf.data : "");
   text_add(&whole, "    </Grid>\n  </Domain>\n</Xdmf>\n");
   if (whole.failed || store->xdmf.failed)
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");

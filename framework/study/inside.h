@@ -78,7 +78,9 @@ struct study {
   char *warning;                     /* the first one's words */
   struct outcome *logged;            /* by number; done where the log has it */
   size_t logs;
-  int log; /* -1: none */
+  struct store *store; /* of the folder; null: nothing is written */
+  int log;             /* -1: none */
+  char *log_path;
   char digest[17];
   double wall; /* of this sitting */
   int threads;
@@ -122,6 +124,8 @@ gamut_status log_begin(struct study *, const char *folder);
 bool log_has_axes(const struct study *);
 gamut_status log_axes(struct study *);
 gamut_status log_run(struct study *, size_t number, const struct outcome *);
+/* Whether the log is still in the folder: what is written to a removed file is lost. */
+gamut_status log_there(struct study *);
 void log_close(struct study *);
 
 /* estimator.c */

@@ -11,7 +11,7 @@
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "store/file.h"
@@ -78,24 +78,47 @@ void log_digest(struct study *study)
   snprintf(study->digest, sizeof study->digest, "%016" PRIx64, h);
 }
 
+gamut_status log_there(struct study *study)
+{
+  struct stat open, named;
+  if (study->log < 0 || (fstat(study->log, &open) == 0 && lstat(study->log_path, &named) == 0 &&
+                         open.st_ino == named.st_ino && open.st_dev == named.st_dev))
+    return GAMUT_OK;
+  return trace_fail_at(study->trace, GAMUT_OUTPUT, NULL, NULL,
+                       "leave the folder alone while a study writes there",
+                       "'%s' was removed or replaced while it was written", study->log_path);
+}
+
+/* Adds the sum; takes the text and gives a longer one, or null. */
+static char *with_sum(char *text, size_t size)
+{
+  char *whole = realloc(text, size + SUM_LENGTH + 2);
+  if (whole)
+    sprintf(whole + size, " ~%08" PRIx32 "\n", sum_of(whole, size));
+  else
+    free(text);
+  return whole;
+}
+
 /* The line goes out in one piece, or the study ends: what is not in the log was not run. */
 static gamut_status append(struct study *study, char *text, size_t size)
 {
-  char *whole = realloc(text, size + SUM_LENGTH + 2);
-  if (!whole) {
-    free(text);
+  gamut_status status = log_there(study);
+  char *whole = with_sum(text, size);
+  if (!whole)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  if (status == GAMUT_OK) {
+    size += SUM_LENGTH + 1;
+    ssize_t written = write(study->log, whole, size);
+    int fault = written == (ssize_t)size ? file_sync(study->log) : written < 0 ? errno : 0;
+    if (written != (ssize_t)size || fault) {
+      log_close(study); /* nothing may follow a line that was cut off */
+      status = trace_fail(study->trace, GAMUT_OUTPUT, "cannot write " RESULT_LOG ": %s",
+                          fault ? strerror(fault) : "the disk took a part only");
+    }
   }
-  sprintf(whole + size, " ~%08" PRIx32 "\n", sum_of(whole, size));
-  size += SUM_LENGTH + 1;
-  ssize_t written = write(study->log, whole, size);
-  int fault = errno;
   free(whole);
-  if (written == (ssize_t)size && fsync(study->log) == 0)
-    return GAMUT_OK;
-  log_close(study); /* nothing may follow a line that was cut off */
-  return trace_fail(study->trace, GAMUT_OUTPUT, "cannot write " RESULT_LOG ": %s",
-                    written < 0 ? strerror(fault) : "the disk took a part only");
+  return status;
 }
 
 gamut_status log_axes(struct study *study)
@@ -140,35 +163,39 @@ gamut_status log_run(struct study *study, size_t number, const struct outcome *o
   return append(study, text, size);
 }
 
-static gamut_status open_file(struct study *study, const char *path, int flags)
+static gamut_status open_file(struct study *study)
 {
-  study->log = open(path, O_RDWR | O_APPEND | O_CLOEXEC | flags, 0666);
-  if (study->log < 0)
-    return trace_fail(study->trace, GAMUT_OUTPUT, "cannot open '%s': %s", path, strerror(errno));
-  if (flock(study->log, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-    return trace_fail(study->trace, GAMUT_OUTPUT, "'%s' is in use by another gamut", path);
-  return GAMUT_OK;
+  study->log = open(study->log_path, O_RDWR | O_APPEND | O_NOFOLLOW | O_CLOEXEC);
+  return study->log >= 0 ? GAMUT_OK
+                         : trace_fail(study->trace, GAMUT_OUTPUT, "cannot open '%s': %s",
+                                      study->log_path, strerror(errno));
 }
 
+static gamut_status find_path(struct study *study, const char *folder)
+{
+  free(study->log_path);
+  study->log_path = file_path(folder, RESULT_LOG);
+  return study->log_path ? GAMUT_OK : trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+}
+
+/* The log is born with its first line. */
 gamut_status log_begin(struct study *study, const char *folder)
 {
   gamut_status status;
-  char header[64], *path = file_path(folder, RESULT_LOG);
-  snprintf(header, sizeof header, "gamut-study 1 %s", study->digest);
-  char *text = strdup(header);
-  if (!path || !text) {
-    free(text);
-    free(path);
-    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
-  }
-  status = open_file(study, path, O_CREAT | O_TRUNC);
-  if (status != GAMUT_OK) {
-    free(text);
+  char header[64], *text = NULL;
+  TRY(find_path(study, folder));
+  snprintf(header, sizeof header, RESULT_LOG_MARK "1 %s", study->digest);
+  text = strdup(header);
+  if (text)
+    text = with_sum(text, strlen(text));
+  if (!text) {
+    status = trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
     goto done;
   }
-  TRY(append(study, text, strlen(text)));
+  TRY(file_replace(folder, RESULT_LOG, text, strlen(text), study->trace));
+  status = open_file(study);
 done:
-  free(path);
+  free(text);
   return status;
 }
 
@@ -277,8 +304,8 @@ static gamut_status read_line(struct study *study, const char *path, char *line,
 {
   if (number == 1) {
     char expected[64];
-    snprintf(expected, sizeof expected, "gamut-study 1 %s", study->digest);
-    if (strncmp(line, "gamut-study 1 ", 14) != 0)
+    snprintf(expected, sizeof expected, RESULT_LOG_MARK "1 %s", study->digest);
+    if (strncmp(line, RESULT_LOG_MARK "1 ", sizeof RESULT_LOG_MARK + 1) != 0)
       return refuse(study, path, number, "it is no log of this gamut's studies");
     if (strcmp(line, expected) != 0)
       return refuse(study, path, number, "the scene, the seed or a plugin is another than it was");
@@ -322,21 +349,25 @@ done:
 
 gamut_status log_resume(struct study *study, const char *folder, bool *there)
 {
-  gamut_status status = GAMUT_OK;
-  char *path = file_path(folder, RESULT_LOG);
+  gamut_status status;
   FILE *file = NULL;
-  *there = path && study->options.resume && file_exists(path);
+  int copy = -1;
+  *there = false;
+  TRY(find_path(study, folder));
+  *there = study->options.resume && file_exists(study->log_path);
   if (!*there)
     goto done;
-  TRY(open_file(study, path, 0));
-  file = fopen(path, "r");
-  status =
-      file ? read_all(study, path, file)
-           : trace_fail(study->trace, GAMUT_OUTPUT, "cannot read '%s': %s", path, strerror(errno));
+  TRY(open_file(study));
+  copy = fcntl(study->log, F_DUPFD_CLOEXEC, 0);
+  file = copy >= 0 ? fdopen(copy, "r") : NULL;
+  status = file ? read_all(study, study->log_path, file)
+                : trace_fail(study->trace, GAMUT_OUTPUT, "cannot read '%s': %s", study->log_path,
+                             strerror(errno));
 done:
   if (file)
     fclose(file);
-  free(path);
+  else if (copy >= 0)
+    close(copy);
   return status;
 }
 

@@ -207,6 +207,7 @@ gamut_status results_write(struct study *study, struct store *store, gamut_statu
     TRY(write_curves(study, store));
   if (summary)
     TRY(store_summary(store, summary, study->trace));
+  TRY(store_finish(store, study->trace));
 done:
   free(summary);
   return status;

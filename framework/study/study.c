@@ -61,6 +61,7 @@ void study_free(struct study *study)
   if (!study)
     return;
   log_close(study);
+  store_close(study->store);
   estimator_free(study);
   levels_free(study);
   for (size_t i = 0; study->measured && i < study->quantities; i++)
@@ -69,6 +70,7 @@ void study_free(struct study *study)
     outcome_clear(&study->outcome[i]);
   for (size_t i = 0; i < study->logs; i++)
     outcome_clear(&study->logged[i]);
+  free(study->log_path);
   free(study->warning);
   free(study->measured);
   free(study->outcome);
@@ -239,20 +241,23 @@ done:
 static gamut_status begin(struct study *study, const char *folder)
 {
   gamut_status status = GAMUT_OK;
-  struct store *store = NULL;
   bool there = false;
   if (!folder)
     return GAMUT_OK;
+  TRY(store_hold(folder, study->trace, &study->store));
   TRY(log_resume(study, folder, &there));
   if (there)
     return GAMUT_OK;
   if (study->options.resume)
     trace_note(study->trace, "there is no study in '%s' yet: it begins", folder);
-  TRY(store_open(folder, study->options.force, study->trace, &store));
-  TRY(store_scene(store, study->scene->tree, study->trace));
+  TRY(store_begin(study->store,
+                  study->options.force || (study->options.resume && store_is_bare(folder)),
+                  study->trace));
+  TRY(store_scene(study->store, study->scene->tree, study->trace));
   status = log_begin(study, folder);
 done:
-  store_close(store);
+  if (study->store)
+    store_rest(study->store);
   return status;
 }
 
@@ -292,15 +297,15 @@ done:
   return status;
 }
 
-static gamut_status write_all(struct study *study, const char *folder, gamut_status status)
+static gamut_status write_all(struct study *study, gamut_status status)
 {
-  struct store *store = NULL;
-  if (!folder || study->runs == 0 || (status != GAMUT_OK && status != GAMUT_NUMERICS))
+  if (!study->store || study->runs == 0 || (status != GAMUT_OK && status != GAMUT_NUMERICS))
     return status;
-  gamut_status written = store_renew(folder, study->trace, &store);
+  gamut_status written = log_there(study);
   if (written == GAMUT_OK)
-    written = results_write(study, store, status);
-  store_close(store);
+    written = store_renew(study->store, study->trace);
+  if (written == GAMUT_OK)
+    written = results_write(study, study->store, status);
   return status != GAMUT_OK ? status : written;
 }
 
@@ -335,8 +340,10 @@ gamut_status study_run(struct study *study, const char *folder, struct trace *tr
   if (study->warned)
     trace_warn_at(trace, NULL, NULL, NULL, "%zu of %zu runs had warnings; one of them: %s",
                   study->warned, study->runs, study->warning ? study->warning : "");
-  status = write_all(study, folder, status);
+  status = write_all(study, status);
 done:
   log_close(study);
+  store_close(study->store);
+  study->store = NULL;
   return status;
 }

@@ -94,7 +94,7 @@ def damaged(folder, whole, cut):
            "both broken: exit 7", answer)
 
 
-def refused(folder, cut):
+def refused(folder, whole, cut):
     out = os.path.join(folder, "refused")
     shutil.copytree(cut, out)
     cases = [("solver.courant=0.2", "solver.courant", 3), ("solver.cell=0.6 mm", "solver.cell", 3),
@@ -108,11 +108,20 @@ def refused(folder, cut):
     report(answer.code == 2, "--resume with --force: exit 2", answer)
     for name in ("checkpoint.h5", "checkpoint.previous.h5"):
         os.remove(os.path.join(out, name))
+    with open(os.path.join(out, "summary.json"), "w", encoding="utf-8") as file:
+        file.write('{"status": "interrupted"}')
     answer = run(SCENE, out, SHOT, "--resume")
     report(answer.code == 7 and "no checkpoint" in answer.said,
-           "a result without a checkpoint: exit 7", answer)
+           "a result that ended in order and has no checkpoint: exit 7", answer)
     answer = run(SCENE, out, SHOT)
     report(answer.code == 7 and "--resume" in answer.said, "no --resume: exit 7, says so", answer)
+    os.remove(os.path.join(out, "summary.json"))
+    answer = run(SCENE, out, [*SHOT, "solver.courant=0.2"], "--resume")
+    report(answer.code == 3 and "solver.courant" in answer.said,
+           "one that was killed before its first checkpoint, another scene: refused by name", answer)
+    answer = run(SCENE, out, SHOT, "--resume")
+    report(answer.code == 0 and "begins anew" in answer.said and not differences(whole, out),
+           "the same scene: begun anew, said so, the same bits", answer)
 
 
 def another_plugin(folder, cut):
@@ -181,7 +190,7 @@ with tempfile.TemporaryDirectory() as scratch:
     stopped(scratch, whole)
     killed(scratch, whole)
     damaged(scratch, whole, cut)
-    refused(scratch, cut)
+    refused(scratch, whole, cut)
     another_plugin(scratch, cut)
     answer = run(SCENE, cut, [*SHOT, OFTEN], "--force")
     report(answer.code == 0, "--force replaces a result with its checkpoints", answer)
