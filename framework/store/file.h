@@ -20,7 +20,7 @@ gamut_status folder_make_inside(const char *folder, struct trace *);
  * which is warned of. */
 gamut_status folder_lock(const char *folder, struct trace *, int *lock);
 
-/* Opens a new file for writing: what had its name is gone, and nothing is followed. -1 and errno. */
+/* Opens a new file for writing: what had its name is gone, no link is followed. -1 and errno. */
 int file_create(const char *path);
 /* Waits until it is on the disk; an errno, or 0. */
 int file_sync(int file);

@@ -72,8 +72,8 @@ struct frame_field {
  * time and step of the last one is not written again.
  *
  * Writes group /frames/NNNNNNNN with /BODY/position, /BODY/id and one dataset a field, attributes
- * with units, and a checksum of all that; flushes; then rewrites results.xdmf by rename, so that a viewer may look during a
- * run. */
+ * with units, and a checksum of all that; flushes; then rewrites results.xdmf by rename, so that a
+ * viewer may look during a run. */
 gamut_status store_frame(struct store *, double time, uint64_t step, const struct frame_set *,
                          size_t sets, const struct frame_field *, size_t fields, struct trace *);
 /* Writes every history to history.csv (own time column each, long form: quantity,unit,time,value)

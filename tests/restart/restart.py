@@ -118,7 +118,7 @@ def refused(folder, whole, cut):
     os.remove(os.path.join(out, "summary.json"))
     answer = run(SCENE, out, [*SHOT, "solver.courant=0.2"], "--resume")
     report(answer.code == 3 and "solver.courant" in answer.said,
-           "one that was killed before its first checkpoint, another scene: refused by name", answer)
+           "one killed before its first checkpoint, another scene: refused by name", answer)
     answer = run(SCENE, out, SHOT, "--resume")
     report(answer.code == 0 and "begins anew" in answer.said and not differences(whole, out),
            "the same scene: begun anew, said so, the same bits", answer)
