@@ -1,5 +1,5 @@
-"""Runs and studies that are killed (SIGKILL) at random moments and resumed, again and again: the same
-bits in the end. The first argument says how many kills, else eight. Prints TAP."""
+"""Runs and studies that are killed (SIGKILL) at random moments and resumed, again and
+again: always the same bits in the end. How many kills: the first argument, else eight. Prints TAP."""
 import os
 import random
 import subprocess
