@@ -34,7 +34,9 @@ FRAME = (
         ("eos", "plugin", "Pressure. `model` names it."),
         ("strength", "plugin", "Flow stress. Absent: elastic without end."),
         ("elasticity", "plugin", "Stress update; `hypoelastic` unless stated."),
-        ("source", "text or list", "Where the numbers come from."))),
+        ("source", "text or list", "Where the numbers come from."),
+        ("scaled", "true or false",
+         "Numbers without a scale: what would be unusual in a metal is not warned of."))),
     ("A body", ("bodies", "*"), (
         ("material", "name", "One of the materials. Required."),
         ("shape", "mapping", "One of the shapes below, or `union`: a list of them. Where a shape "

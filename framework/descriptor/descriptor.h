@@ -18,11 +18,15 @@
  *     grid, every value with every other, or zip, side by side), plugin (kind: random_field; a
  *     plugin of that kind with its parameters, {model: NAME, ...}).
  *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI
- *     unless they carry a unit: "[a, b)", "(0, inf)".
+ *     unless they carry a unit: "[a, b)", "(0, inf)". Outside `physical` a scene is refused,
+ *     outside `fit`, where the law holds, warned. `usual` is the spread of published values: beyond
+ *     it most often a unit is wrong, and the warning says which would be right. It is of the
+ *     magnitude where numbers may be negative and its lower end is positive; zero is never unusual.
  *   constraints: ["T_melt > T_room"]   comparisons over real parameters
  *   needs: {shear_modulus: "(0, inf)"} strength, eos: ranges in SI of what its caller has of that
  *                                      name. A strength needs this one unless it says other ones,
  *                                      or {}: without shear it limits nothing
+ *   usual: {density: "[50, 30000]"}    eos: usual ranges in SI of keys of the material
  *   given:                             alternative sets; a scene gives one. What is given leads to
  *     - {set: [youngs_modulus, poissons_ratio], then: {shear_modulus: "youngs_modulus / (2 * ..)"}}
  *     - {set: [shear_modulus]}         what is in `then`; all names are declared parameters. Those
@@ -94,7 +98,7 @@ struct parameter {
   enum value_type type;
   const struct tree *standard; /* the default as written, or null */
   bool optional, random;
-  struct range fit, physical;
+  struct range fit, physical, usual;
   size_t size_min, size_max;   /* of a vector */
   const char **choice;         /* names of a choice, variables of an expression, table columns */
   const char **choice_unit;    /* units of table columns */
@@ -138,6 +142,7 @@ struct descriptor {
   struct parameter *parameter;         size_t parameters;
   const char **constraint;             size_t constraints;
   struct need *need;                   size_t needs;
+  struct need *usual;                  size_t usuals;  /* of the material's keys */
   struct given_set *given;             size_t givens;
   struct field_use *input;             size_t inputs;
   struct field_use *output;            size_t outputs;

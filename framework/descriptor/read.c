@@ -29,6 +29,7 @@ static const struct {
     {"constraints", EVERY},
     {"given", EVERY},
     {"needs", LAWS},
+    {"usual", KIND(GAMUT_KIND_EOS)},
     {"requires", EVERY},
     {"provides", EVERY},
     {"messages", EVERY},

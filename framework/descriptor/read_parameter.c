@@ -25,6 +25,7 @@ static const struct {
     {"default", ALL & ~(BIT(VALUE_GROUP) | BIT(VALUE_PLUGIN))},
     {"unit", RANGED | BIT(VALUE_EXPRESSION)},
     {"fit", RANGED},
+    {"usual", RANGED},
     {"physical", RANGED},
     {"random", BIT(VALUE_REAL)},
     {"size", BIT(VALUE_VECTOR)},
@@ -281,6 +282,7 @@ static void read_parameter(struct reader *reader, const struct tree *node, bool 
   read_by_type(reader, node, parameter);
   read_range(reader, node, "fit", parameter, &parameter->fit);
   read_range(reader, node, "physical", parameter, &parameter->physical);
+  read_range(reader, node, "usual", parameter, &parameter->usual);
   if (!range_within(&parameter->fit, &parameter->physical))
     fault(reader, tree_get(node, "fit"), NULL,
           "the range of the fit of '%s' reaches beyond its physical range", parameter->name);

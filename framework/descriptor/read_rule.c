@@ -34,26 +34,35 @@ static void need_shear(struct reader *reader)
   d->need[d->needs++] = (struct need){"shear_modulus", {true, 0.0, INFINITY, true, true}};
 }
 
-static void read_needs(struct reader *reader, const struct tree *node)
+static size_t read_ranges(struct reader *reader, const struct tree *node, const char *what,
+                          struct need **list)
 {
-  struct descriptor *d = reader->descriptor;
   char why[256];
-  if (!node) {
-    need_shear(reader);
-    return;
-  }
   if (node->kind != TREE_MAPPING) {
-    fault(reader, node, "{shear_modulus: \"(0, inf)\"}", "'needs' is no mapping");
-    return;
+    fault(reader, node, "{name: \"(0, inf)\"}", "'%s' is no mapping", what);
+    return 0;
   }
-  d->need = reader_keep(reader, node->children, sizeof *d->need);
+  *list = reader_keep(reader, node->children, sizeof **list);
   for (size_t i = 0; i < node->children; i++) {
-    struct need *need = &d->need[d->needs++];
+    struct need *need = &(*list)[i];
     const char *text = read_text(reader, node, node->child[i]->key, true);
     need->parameter = node->child[i]->key;
     if (text && !range_read(text, "1", reader->units, &need->range, why, sizeof why))
       fault(reader, node->child[i], NULL, "cannot read the range '%s': %s", text, why);
   }
+  return node->children;
+}
+
+static void read_needs(struct reader *reader, const struct tree *root)
+{
+  struct descriptor *d = reader->descriptor;
+  const struct tree *needs = tree_get(root, "needs"), *usual = tree_get(root, "usual");
+  if (needs)
+    d->needs = read_ranges(reader, needs, "needs", &d->need);
+  else
+    need_shear(reader);
+  if (usual)
+    d->usuals = read_ranges(reader, usual, "usual", &d->usual);
 }
 
 static bool contains(const char *const *list, size_t count, const char *name)
@@ -189,7 +198,7 @@ static void read_variants(struct reader *reader, const struct tree *node)
 void read_rules(struct reader *reader, const struct tree *root)
 {
   read_constraints(reader, tree_get(root, "constraints"));
-  read_needs(reader, tree_get(root, "needs"));
+  read_needs(reader, root);
   read_given(reader, tree_get(root, "given"));
   read_variants(reader, tree_get(root, "variants"));
 }

@@ -134,6 +134,7 @@ static void put_parameters(FILE *file, const struct descriptor *d,
       put_lines(file, p->doc, deeper);
     put_range(file, "physical", &p->physical, p->unit, indent);
     put_range(file, "fit", &p->fit, p->unit, indent);
+    put_range(file, "usual", &p->usual, p->unit, indent);
     if (p->source)
       fprintf(file, "%ssource: %s\n", deeper, p->source);
     put_parameters(file, NULL, p->member, p->members, deeper);

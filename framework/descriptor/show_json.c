@@ -64,6 +64,7 @@ static json_t *parameters(const struct parameter *parameter, size_t count)
     json_object_set_new(value, "random", json_boolean(p->random));
     set_range(value, "fit", &p->fit);
     set_range(value, "physical", &p->physical);
+    set_range(value, "usual", &p->usual);
     if (p->type == VALUE_VECTOR)
       json_object_set_new(value, "size", json_pack("[i, i]", (int)p->size_min, (int)p->size_max));
     if (p->type == VALUE_CHOICE)

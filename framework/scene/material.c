@@ -4,7 +4,8 @@
 
 #include "scene/reading.h"
 
-static const char *const own_keys[] = {"density", "eos", "strength", "elasticity", "source"};
+static const char *const own_keys[] = {"density",    "eos",    "strength",
+                                       "elasticity", "source", "scaled"};
 
 static const struct parameter density_parameter[] = {{
     .name = "density",
@@ -13,6 +14,7 @@ static const struct parameter density_parameter[] = {{
     .type = VALUE_REAL,
     .random = true,
     .physical = {true, 0, INFINITY, true, true},
+    .usual = {true, 1e-3, 3e4, false, false},
 }};
 
 const struct parameter *material_density(void)
@@ -95,6 +97,18 @@ static void elasticity_default(struct reading *reading, struct material *materia
   reading->here = NULL;
 }
 
+/* What is usual for a key of a material depends on its eos: a gas is not as dense as a metal. */
+static void usual_of_eos(struct reading *reading, const struct material *material)
+{
+  const struct descriptor *eos = material->eos.descriptor;
+  for (size_t i = 0; eos && i < eos->usuals; i++) {
+    const struct tree *node = tree_get(material->node, eos->usual[i].parameter);
+    if (strcmp(eos->usual[i].parameter, density_parameter->name) == 0 &&
+        range_holds(&density_parameter->usual, material->density))
+      usual_check(reading, density_parameter, &eos->usual[i].range, node, material->density);
+  }
+}
+
 /* What the elasticity calls must be there; what it does not call is left unused with a word. */
 static void laws_check(struct reading *reading, const struct material *material)
 {
@@ -121,6 +135,18 @@ static void laws_check(struct reading *reading, const struct material *material)
                  "'%s' of material '%s' is not used: elasticity '%s' takes none", law[i],
                  material->name, caller->name);
   }
+}
+
+/* Whether a problem is stated in numbers without a scale: what is usual is then no guide. */
+static bool scaled_read(struct reading *reading, const struct tree *material)
+{
+  const struct tree *node = tree_get(material, "scaled");
+  if (!node || node->kind != TREE_SCALAR)
+    return false;
+  bool is = strcmp(node->text, "true") == 0;
+  if (!is && strcmp(node->text, "false") != 0)
+    blame_value(reading, node, "true or false", "'scaled' is neither true nor false");
+  return is;
 }
 
 static void source_check(struct reading *reading, const struct tree *source)
@@ -163,6 +189,7 @@ static void material_read(struct reading *reading, const struct tree *node,
   if (!expect_mapping(reading, node, what))
     return;
   tree_path(node, path, sizeof path);
+  reading->scaled = scaled_read(reading, node);
 
   neighbours_of(reading, node, "", extra, extras);
   struct section section = {.parameter = extra,
@@ -196,6 +223,8 @@ static void material_read(struct reading *reading, const struct tree *node,
 
   source_check(reading, tree_get(node, "source"));
   parts_read(reading, node, material, extra, extras);
+  usual_of_eos(reading, material);
+  reading->scaled = false;
 }
 
 void materials_read(struct reading *reading, const struct tree *root)

@@ -42,6 +42,7 @@ struct reading {
   size_t bodies;
   unsigned axes; /* of the geometry; 0: the solver has none */
   bool axisymmetric;
+  bool scaled; /* of the material that is read */
   bool lost;   /* no solver or geometry was understood: axes are unknown */
   bool random; /* some value is random */
   bool pointwise; /* what is read now may differ from point to point */
@@ -109,6 +110,12 @@ bool plugin_read(struct reading *, enum gamut_kind, const struct tree *, struct 
 bool random_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
 /* Physical range: a fault; range of the fit: a warning. `node` null: a derived value. */
 bool range_check(struct reading *, const struct parameter *, const struct tree *, double value);
+/* Warns of a given number outside a usual range, with the unit or the power of ten that would bring
+ * it in. Numbers that are derived or drawn, and defaults, are not judged. */
+void usual_check(struct reading *, const struct parameter *, const struct range *,
+                 const struct tree *, double value);
+/* Warns of units that people read as another than they are. */
+void unit_words_check(struct reading *, const struct tree *);
 /* A scalar's text; null with a fault. */
 const char *text_read(struct reading *, const struct tree *, const char *name);
 /* A list of names, or one; kept with the scene. */

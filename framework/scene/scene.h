@@ -7,7 +7,8 @@
  *   solver: {model: NAME, ...}        the solver's parameters
  *   materials: {NAME: {density:, eos: {model:, ...}, strength:, elasticity:, source: text, ...}}
  *                                     elasticity, or its model, defaults to hypoelastic; strength
- *                                     may be absent, and needs a shear modulus.
+ *                                     may be absent, and needs a shear modulus. scaled: true for
+ *                                     numbers without a scale: unusual ones are not warned of.
  *                                     Further keys: material_parameters of any installed plugin
  *   bodies: {NAME: {material:, shape:, velocity:, temperature:, pressure: | energy:, ...}}
  *                                     velocity: vector with units, or [expression strings of x, y,

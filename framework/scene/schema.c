@@ -207,7 +207,8 @@ static json_t *shape_schema(void)
 
 static json_t *material_schema(const struct registry *registry)
 {
-  json_t *properties = json_pack("{s:o}", "source", reference("names"));
+  json_t *properties =
+      json_pack("{s:o, s:{s:s}}", "source", reference("names"), "scaled", "type", "boolean");
   json_object_set_new(
       properties, "density",
       described(json_pack("{s:[o, o]}", "anyOf", reference("quantity"), reference("random")),

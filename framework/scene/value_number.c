@@ -53,6 +53,7 @@ bool amount_read(struct reading *reading, const struct tree *node, const char *n
   }
   switch (result) {
   case UNIT_OK:
+    unit_words_check(reading, node);
     return true;
   case UNIT_NOT_A_NUMBER:
     if (node->text[0] == 0) {
@@ -102,6 +103,7 @@ bool range_check(struct reading *reading, const struct parameter *parameter,
     warn_value(reading, node, words, "%s = %.6g%s%s is outside the range of the fit",
                parameter->name, value, blank, unit);
   }
+  usual_check(reading, parameter, &parameter->usual, node, value);
   return true;
 }
 
