@@ -69,3 +69,21 @@ AC_DEFUN([GAMUT_PROG_PYTHON], [
     done])
   PYTHON=${gamut_cv_python:-python3}
 ])
+
+# A clang whose libFuzzer and sanitizers are installed, for `make fuzz`.
+AC_DEFUN([GAMUT_PROG_LIBFUZZER], [
+  AC_ARG_VAR([FUZZ_CC], [clang with libFuzzer, for make fuzz])
+  AC_CACHE_CHECK([for clang with libFuzzer], [gamut_cv_fuzz_cc], [
+    gamut_cv_fuzz_cc=$FUZZ_CC
+    gamut_saved_CC=$CC gamut_saved_CFLAGS=$CFLAGS
+    CFLAGS="-fsanitize=fuzzer,address,undefined"
+    for CC in clang clang-19 clang-16 clang-15 clang-14; do
+      AS_IF([test -z "$gamut_cv_fuzz_cc"], [AC_LINK_IFELSE([AC_LANG_SOURCE([
+int LLVMFuzzerTestOneInput(const unsigned char *data, __SIZE_TYPE__ size);
+int LLVMFuzzerTestOneInput(const unsigned char *data, __SIZE_TYPE__ size)
+{ return data && size > 8; }])], [gamut_cv_fuzz_cc=$CC])])
+    done
+    CC=$gamut_saved_CC CFLAGS=$gamut_saved_CFLAGS])
+  FUZZ_CC=$gamut_cv_fuzz_cc
+  AM_CONDITIONAL([LIBFUZZER], [test -n "$FUZZ_CC"])
+])

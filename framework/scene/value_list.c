@@ -8,6 +8,7 @@ double *vector_read(struct reading *reading, const struct tree *node, const char
                     const char *unit, size_t least, size_t most, size_t *count)
 {
   char expected[192], example[96] = "0";
+  *count = 0;
   if (!unit_is_pure(unit))
     snprintf(example, sizeof example, "%s", unit_example(unit));
   if (least == most)
@@ -32,9 +33,10 @@ double *vector_read(struct reading *reading, const struct tree *node, const char
   size_t faults = reading->faults;
   for (size_t i = 0; i < node->children; i++)
     amount_read(reading, node->child[i], name, unit, &number[i]);
-  *count = node->children;
-  if (reading->faults == faults)
+  if (reading->faults == faults) {
+    *count = node->children;
     return number;
+  }
   free(number);
   return NULL;
 }
