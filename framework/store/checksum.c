@@ -218,7 +218,7 @@ herr_t checksum_write(hid_t group, const char *name, uint64_t *sum)
 
 bool checksum_stated(hid_t group, uint64_t *sum)
 {
-  hid_t opened = H5Aopen(group, attribute, H5P_DEFAULT);
+  hid_t opened = hdf5_open_single(group, attribute);
   bool good = opened >= 0 && H5Aread(opened, H5T_NATIVE_UINT64, sum) >= 0;
   if (opened >= 0)
     H5Aclose(opened);

@@ -226,10 +226,22 @@ char *hdf5_link_name(hid_t group, size_t index)
   return name;
 }
 
+hid_t hdf5_open_single(hid_t at, const char *name)
+{
+  hid_t opened = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
+  hid_t space = opened >= 0 ? H5Aget_space(opened) : -1;
+  bool single = space >= 0 && H5Sget_simple_extent_npoints(space) == 1;
+  if (space >= 0)
+    H5Sclose(space);
+  if (opened >= 0 && !single)
+    H5Aclose(opened);
+  return single ? opened : -1;
+}
+
 char *hdf5_read_text_attribute(hid_t at, const char *name)
 {
   char *text = NULL;
-  hid_t opened = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
+  hid_t opened = hdf5_open_single(at, name);
   if (opened < 0)
     return NULL;
   hid_t type = H5Aget_type(opened);
@@ -248,7 +260,7 @@ char *hdf5_read_text_attribute(hid_t at, const char *name)
 double hdf5_read_real_attribute(hid_t at, const char *name, double otherwise)
 {
   double value = otherwise;
-  hid_t opened = H5Aexists(at, name) > 0 ? H5Aopen(at, name, H5P_DEFAULT) : -1;
+  hid_t opened = hdf5_open_single(at, name);
   if (opened < 0)
     return otherwise;
   if (H5Aread(opened, H5T_NATIVE_DOUBLE, &value) < 0)

@@ -40,6 +40,9 @@ hid_t hdf5_dataset(hid_t at, const char *name, hid_t stored, hid_t memory, size_
 
 /* Name of a link of a group, in order of name; allocated. */
 char *hdf5_link_name(hid_t group, size_t index);
+/* An attribute of one value, opened; negative if it is absent or a list, which would be read past
+ * the end of what waits for one. */
+hid_t hdf5_open_single(hid_t at, const char *name);
 /* Allocated; null if absent or of another type. */
 char *hdf5_read_text_attribute(hid_t at, const char *name);
 /* `otherwise` if absent. */

@@ -42,8 +42,18 @@ static struct base_file take(const char *name)
 
 static struct base {
   struct scene *scene;
+  struct store_place place;
+  char run[256];
   struct base_file checkpoint, results;
 } base;
+
+static void keep_place(const struct store *store)
+{
+  base.place = store_place_of(store);
+  snprintf(base.run, sizeof base.run, "%s", base.place.run);
+  base.place.run = base.run;
+  base.place.xdmf = "";
+}
 
 static gamut_status run_it(struct trace *trace)
 {
@@ -65,6 +75,7 @@ static gamut_status run_it(struct trace *trace)
   struct history *const *histories = run_histories(run, &count);
   TRY(store_histories(store, histories, count, trace));
   TRY(store_summary(store, "{}", trace));
+  keep_place(store);
 done:
   run_free(run);
   store_close(store);
@@ -89,6 +100,11 @@ static const struct base *base_get(void)
 struct scene *base_scene(void)
 {
   return base_get()->scene;
+}
+
+const struct store_place *base_place(void)
+{
+  return &base_get()->place;
 }
 
 const struct base_file *base_checkpoint(void)

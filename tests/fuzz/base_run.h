@@ -14,6 +14,8 @@ struct base_file {
   uint8_t *data;
   size_t size;
 };
+/* Where its frames have come to. */
+const struct store_place *base_place(void);
 const struct base_file *base_checkpoint(void);
 const struct base_file *base_results(void);
 

@@ -105,6 +105,27 @@ static void put_text(struct edit *edit, bool variable)
   H5Sclose(space);
 }
 
+/* Lists too: who expects one value must not take more. */
+static void make_attribute(hid_t at, const char *name, bool text, const char *value, size_t count)
+{
+  hsize_t extent = count;
+  size_t size = text ? strlen(value) + 1 : sizeof(double);
+  char *data = calloc(count, size);
+  double real = strtod(value, NULL);
+  hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &extent, NULL);
+  hid_t type = text ? text_type(size) : H5Tcopy(H5T_NATIVE_DOUBLE);
+  hid_t made = H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+  for (size_t i = 0; data && i < count; i++)
+    memcpy(data + i * size, text ? value : (const char *)&real, size);
+  if (made >= 0) {
+    H5Awrite(made, type, data);
+    H5Aclose(made);
+  }
+  free(data);
+  H5Tclose(type);
+  H5Sclose(space);
+}
+
 static void put_attribute(struct edit *edit)
 {
   char name[WORD] = "", kind[16] = "";
@@ -117,20 +138,13 @@ static void put_attribute(struct edit *edit)
     return;
   if (H5Aexists(at, name) > 0)
     H5Adelete(at, name);
-  const char *value = edit->rest + from;
-  double real = strtod(value, NULL);
-  bool text = strcmp(kind, "text") == 0;
-  hid_t space = H5Screate(H5S_SCALAR);
-  hid_t type = text ? text_type(strlen(value) + 1) : H5Tcopy(H5T_NATIVE_DOUBLE);
-  hid_t made = text || strcmp(kind, "real") == 0
-                   ? H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT)
-                   : -1;
-  if (made >= 0) {
-    H5Awrite(made, type, text ? (const void *)value : (const void *)&real);
-    H5Aclose(made);
-  }
-  H5Tclose(type);
-  H5Sclose(space);
+  char *value = edit->rest + from;
+  bool text = strncmp(kind, "text", 4) == 0;
+  size_t count = 1;
+  if (strcmp(kind, "texts") == 0 || strcmp(kind, "reals") == 0)
+    count = strtoull(value, &value, 10);
+  if ((text || strncmp(kind, "real", 4) == 0) && count > 0 && count < 4096)
+    make_attribute(at, name, text, value, count);
   H5Oclose(at);
 }
 
@@ -245,8 +259,7 @@ void hdf5_edit(hid_t file, const uint8_t *text, size_t size)
     memcpy(copy, text, size);
   for (int n = 0; copy && n < LINES_MAX && (line = strsep(&rest, "\n")); n++) {
     int from = 0;
-    if (sscanf(line, "%15s %255s %n", edit.verb, edit.path, &from) < 2 || edit.path[0] != '/' ||
-        !edit.path[1])
+    if (sscanf(line, "%15s %255s %n", edit.verb, edit.path, &from) < 2 || edit.path[0] != '/')
       continue;
     snprintf(edit.rest, sizeof edit.rest, "%s", from ? line + from : "");
     apply(&edit);

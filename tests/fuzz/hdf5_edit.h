@@ -7,7 +7,7 @@
  *   group PATH                            empty
  *   drop PATH
  *   link PATH TARGET                      another name; soft PATH TARGET: a symbolic one
- *   attribute PATH NAME real number | text words | drop
+ *   attribute PATH NAME real number | text words | drop | reals COUNT number | texts COUNT words
  *   swap PATH old | new                   in a text or in bytes, the first `old` becomes `new`
  *
  * What is there already is replaced; a line that makes no sense is passed over. */

@@ -1,12 +1,15 @@
 /* results.h5 as `gamut plot` and --resume read it: changes (hdf5_edit.h) to a sound one. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/result.h"
+#include "store/state.h"
 #include "tests/fuzz/base_run.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/hdf5_edit.h"
@@ -54,13 +57,43 @@ static void read_histories(const struct result *result, struct trace *trace)
   result_histories_free(history, count);
 }
 
-static void go_on(struct trace *trace)
+static gamut_status go_on(struct trace *trace)
 {
-  const struct store_place place = {.frames = 1, .xdmf = ""};
+  gamut_status status;
   struct store *store = NULL;
-  if (store_reopen(bench_path("run"), &place, trace, &store) == GAMUT_OK)
-    store_scene(store, base_scene()->tree, trace);
+  bool damaged;
+  TRY(store_hold(bench_path("run"), trace, &store));
+  TRY(store_reopen(store, base_place(), trace, &damaged));
+  TRY(store_join(store, trace));
+  status = store_scene(store, base_scene()->tree, trace);
+done:
   store_close(store);
+  return status;
+}
+
+/* A group and what it says about itself agree again, so that not everything ends at the checksum;
+ * a change of the checksum itself stays as it is. */
+static void sign(hid_t file, const char *path, const char *name)
+{
+  uint64_t sum;
+  hid_t group = H5Oopen(file, path, H5P_DEFAULT);
+  if (group >= 0 && !checksum_holds(group, name, &sum) && checksum_stated(group, &sum) &&
+      H5Adelete(group, "checksum") >= 0)
+    checksum_write(group, name, &sum);
+  if (group >= 0)
+    H5Oclose(group);
+}
+
+static void sign_all(hid_t file)
+{
+  for (int f = 0; f < FRAMES_MAX; f++) {
+    char name[32], path[64];
+    snprintf(name, sizeof name, "%08d", f);
+    snprintf(path, sizeof path, "/frames/%s", name);
+    sign(file, path, name);
+  }
+  sign(file, "/quantities", CURVES_NAME);
+  sign(file, "/study/curves", CURVES_NAME);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -73,6 +106,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   hid_t file = H5Fopen(bench_path("run/results.h5"), H5F_ACC_RDWR, H5P_DEFAULT);
   demand(file >= 0, "the result to be changed cannot be opened");
   hdf5_edit(file, data, size);
+  if (size % 4 != 0)
+    sign_all(file);
   demand(H5Fclose(file) >= 0, "the changed result cannot be closed");
   if (result_open(bench_path("run"), trace, &result) == GAMUT_OK) {
     read_frames(result, trace);
