@@ -109,20 +109,22 @@ FRAME = (
          "How often to leave a checkpoint; else at signals only."),
         ("fields", "list of names", "Fields and measures of points to write."))),
     ("Uncertainty", ("uncertainty",), (
-        ("estimator", "plugin", "`model` names it."),
+        ("estimator", "plugin, or off", "`model` names it; off: one run at the means."),
         ("seed", "whole number", "Of the random numbers; 1 unless stated."),
-        ("correlation", "list", "Of [path, path, number]: between random parameters."),
+        ("correlation", "list", "Of [path, path, number from -1 to 1]: between random parameters."),
         ("failures", "1", "Share of the runs that may fail."))),
     ("A random number", ("$defs", "random"), (
         ("mean", "as the parameter", "Mean."),
-        ("cv", "1", "Coefficient of variation: standard deviation over mean."),
-        ("sd", "as the parameter", "Standard deviation, in place of `cv`."),
+        ("cv", "1", "Coefficient of variation: standard deviation over mean; of a temperature "
+         "over its value in K. Refused where the mean is in degC or degF."),
+        ("sd", "as the parameter", "Standard deviation, in place of `cv`; a difference: 20 degC "
+         "are 20 K."),
         ("distribution", "name", "normal (unless stated), lognormal, uniform, weibull, gamma, "
          "beta, triangular."),
         ("lower", "as the parameter", "Of uniform, beta, triangular."),
         ("upper", "as the parameter", "Of uniform, beta, triangular."),
-        ("truncate", "true or [lower, upper]", "Cuts the distribution off: at the physical range, "
-         "or at the given ends."),
+        ("truncate", "true or [lower, upper]", "Cuts the distribution off: at the physical range "
+         "and at constraints, or at the given ends (-inf and inf are open)."),
         ("field", "plugin", "A random field, in parameters that kernels see: every point then has "
          "its own value. See [random fields](random_fields.md)."))),
 )

@@ -103,7 +103,7 @@ def table_of(folder):
 
 
 def moments(folder, name):
-    values = [float(row[name]) for row in table_of(folder)]
+    values = [float(row[name]) for row in table_of(folder) if row["run"] != "-1"]
     mean = sum(values) / len(values)
     return mean, math.sqrt(sum((v - mean) ** 2 for v in values) / (len(values) - 1))
 

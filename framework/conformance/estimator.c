@@ -95,14 +95,33 @@ static gamut_status study_end(struct study *study)
 
 struct result {
   double mean[QUANTITIES], variance[QUANTITIES], mean_error[QUANTITIES], variance_error[QUANTITIES];
+  double mean_lower[QUANTITIES], mean_upper[QUANTITIES];
+  double variance_lower[QUANTITIES], variance_upper[QUANTITIES];
+  double heavy_tail[QUANTITIES];
 };
 
-static gamut_status study_report(struct study *study, struct result *result)
+/* Where runs are no sample there is nothing to report. */
+static gamut_status study_report(struct study *study, bool table, struct result *result)
 {
-  memset(result, 0, sizeof *result);
-  struct gamut_moments moments = {result->mean, result->variance, result->mean_error,
-                                  result->variance_error};
-  return study->ops->report(study->self, &moments);
+  double *number = (double *)result;
+  for (size_t i = 0; i < sizeof *result / sizeof *number; i++)
+    number[i] = NAN;
+  struct gamut_moments moments = {
+      result->mean,           result->variance,       result->mean_error,
+      result->variance_error, result->mean_lower,     result->mean_upper,
+      result->variance_lower, result->variance_upper, result->heavy_tail};
+  return table ? GAMUT_OK : study->ops->report(study->self, &moments);
+}
+
+/* An interval that is stated holds the estimate, and the truth lies within twice its width. */
+static void prove_interval(struct checks *checks, const char *what, double truth, double estimate,
+                           double lower, double upper)
+{
+  if (isnan(lower) && isnan(upper))
+    return;
+  check_that(checks, lower <= estimate && estimate <= upper, "the interval of %s holds it", what);
+  check_figure(checks, fabs(truth - estimate), 2 * fmax(upper - estimate, estimate - lower),
+               "%s against twice its interval", what);
 }
 
 static void prove_integrals(struct checks *checks, const struct study *study,
@@ -117,11 +136,16 @@ static void prove_integrals(struct checks *checks, const struct study *study,
     check_figure(checks, fabs(result->variance[q] - true_variance[q]),
                  4 * result->variance_error[q] + 1e-9 * true_variance[q],
                  "variance of %s quantity, against four of its error bars", name[q]);
+    prove_interval(checks, "the mean", true_mean[q], result->mean[q], result->mean_lower[q],
+                   result->mean_upper[q]);
+    prove_interval(checks, "the variance", true_variance[q], result->variance[q],
+                   result->variance_lower[q], result->variance_upper[q]);
   }
 }
 
 /* A study cut after `batches` and taken up by a fresh estimator. */
-static bool cut_study(struct bare_run *run, size_t batches, struct result *result)
+static bool cut_study(struct bare_run *run, size_t batches, bool table, struct result *result,
+                      size_t *runs)
 {
   struct study first, second = {0};
   gamut_status status = study_new(&first, run);
@@ -141,7 +165,8 @@ static bool cut_study(struct bare_run *run, size_t batches, struct result *resul
     if (status == GAMUT_OK)
       status = study_end(&second);
     if (status == GAMUT_OK)
-      status = study_report(&second, result);
+      status = study_report(&second, table, result);
+    *runs = first.runs + second.runs;
   }
   free(bytes);
   study_free(&first);
@@ -149,15 +174,27 @@ static bool cut_study(struct bare_run *run, size_t batches, struct result *resul
   return status == GAMUT_OK;
 }
 
-static void prove_restore(struct proof *proof, struct bare_run *run, const struct result *whole)
+static void prove_restore(struct proof *proof, struct bare_run *run, const struct result *whole,
+                          size_t runs)
 {
+  const bool table = proof->descriptor->yields_table;
   for (size_t batches = 0; batches < 3; batches++) {
     struct result result;
     check_begin(&proof->checks, "save and restore after %zu batches", batches);
-    bool fine = cut_study(run, batches, &result);
-    check_that(&proof->checks, fine && memcmp(&result, whole, sizeof result) == 0,
+    size_t made = 0;
+    bool fine = cut_study(run, batches, table, &result, &made);
+    check_that(&proof->checks, fine && made == runs && memcmp(&result, whole, sizeof result) == 0,
                "saved after %zu batches and restored, it ends with the same bits", batches);
   }
+}
+
+/* Each level is run, once. */
+static void prove_levels(struct checks *checks, const struct bare_run *run,
+                         const struct study *study)
+{
+  const size_t levels = levels_of(run->specimen.values);
+  check_that(checks, study->runs == (levels ? levels : 1), "%zu runs of %zu levels", study->runs,
+             levels);
 }
 
 void prove_estimator(struct proof *proof)
@@ -168,19 +205,23 @@ void prove_estimator(struct proof *proof)
   check_begin(&proof->checks, "making the estimator");
   if (bare_run_new(&run, proof)) {
     const struct estimator_operations *ops = run.ops;
-    bool whole = ops->create && ops->destroy && ops->ask && ops->tell && ops->report && ops->save &&
-                 ops->restore;
+    const bool table = proof->descriptor->yields_table;
+    bool whole = ops->create && ops->destroy && ops->ask && ops->tell && (table || ops->report) &&
+                 ops->save && ops->restore;
     if (check_that(&proof->checks, whole, "all operations are there")) {
       gamut_status status = study_new(&study, &run);
       check_begin(&proof->checks, "a study of a linear and a quadratic quantity");
       if (status == GAMUT_OK)
         status = study_end(&study);
       if (status == GAMUT_OK)
-        status = study_report(&study, &result);
+        status = study_report(&study, table, &result);
       bool ended = status == GAMUT_OK && study.runs > 0 && study.runs < RUNS_MAX;
       if (check_that(&proof->checks, ended, "a study ends (%zu runs)", study.runs)) {
-        prove_integrals(&proof->checks, &study, &result);
-        prove_restore(proof, &run, &result);
+        if (table)
+          prove_levels(&proof->checks, &run, &study);
+        else
+          prove_integrals(&proof->checks, &study, &result);
+        prove_restore(proof, &run, &result, study.runs);
       }
       bare_run_say(&run, &proof->checks);
       study_free(&study);

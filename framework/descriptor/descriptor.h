@@ -56,6 +56,9 @@
  *                                      matter that is pulled apart
  *   phases: [..]                       solver
  *   axis: {name: time, unit: s}        solver
+ *   yields: moments                    estimator: what its runs are for. moments (unless stated):
+ *                                      they are a sample, and `report` tells mean and variance;
+ *                                      table: each stands for itself
  *   measures:                          what a quantity can be
  *     pressure: {unit: Pa, at: point, formula: "-(stress_xx + stress_yy + stress_zz) / 3", doc: ..}
  *     extent: {unit: m, at: body, arguments: {axis: {type: choice, choices: [x, y, z]}}, doc: ..}
@@ -160,6 +163,7 @@ struct descriptor {
   const char **provide;                size_t provisions;
   const char **phase;                  size_t phases;
   const char *axis, *axis_unit;
+  bool yields_table;                   /* of an estimator: its runs are no sample */
   struct measure *measure;             size_t measures;
   char digest[24];                     /* of the interface, see descriptor_digest */
   struct tree *tree;                   /* owns all strings */

@@ -46,6 +46,7 @@ static const struct {
     {"material_parameters", KIND(GAMUT_KIND_EFFECT) | KIND(GAMUT_KIND_ELASTICITY)},
     {"phases", SOLVER},
     {"axis", SOLVER},
+    {"yields", KIND(GAMUT_KIND_ESTIMATOR)},
     {"measures", MEASURES},
 };
 

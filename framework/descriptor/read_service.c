@@ -133,6 +133,18 @@ static void read_axis(struct reader *reader, const struct tree *node)
   d->axis_unit = unit ? unit : d->axis_unit;
 }
 
+static void read_yields(struct reader *reader, const struct tree *root)
+{
+  static const char *const known[] = {"moments", "table"};
+  const char *text = read_text(reader, root, "yields", false);
+  if (!text)
+    return;
+  reader->descriptor->yields_table = strcmp(text, known[1]) == 0;
+  if (!reader->descriptor->yields_table && strcmp(text, known[0]) != 0)
+    fault(reader, tree_get(root, "yields"), "moments or table", "an estimator cannot yield '%s'",
+          text);
+}
+
 void read_services(struct reader *reader, const struct tree *root)
 {
   struct descriptor *d = reader->descriptor;
@@ -144,5 +156,6 @@ void read_services(struct reader *reader, const struct tree *root)
     d->axis_unit = "s";
   }
   read_axis(reader, tree_get(root, "axis"));
+  read_yields(reader, root);
   read_measures(reader, tree_get(root, "measures"));
 }

@@ -243,6 +243,9 @@ static void put_services(FILE *file, const struct descriptor *d)
   put_names(file, "\nphases of a step: ", d->phase, d->phases);
   if (d->axis)
     fprintf(file, "\nmarches in %s (%s)\n", d->axis, d->axis_unit);
+  if (d->kind == GAMUT_KIND_ESTIMATOR)
+    fprintf(file, "\nyields %s\n",
+            d->yields_table ? "a table: each run stands for itself" : "moments of its runs");
   if (d->measures)
     fputs("\nmeasures\n", file);
   for (size_t i = 0; i < d->measures; i++) {

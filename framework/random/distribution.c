@@ -202,3 +202,11 @@ double distribution_below(const struct distribution *d, double x)
   double from = tail(&law, d->lower, above), to = tail(&law, d->upper, above);
   return (tail(&law, x, above) - from) / (to - from);
 }
+
+double distribution_cut(const struct distribution *d)
+{
+  if (!d->truncated || bounded(d->kind))
+    return 0;
+  const struct law law = law_of(d);
+  return tail(&law, d->lower, false) + tail(&law, d->upper, true);
+}

@@ -26,6 +26,7 @@ struct distribution {
   double mean, deviation;
   double lower, upper; /* -inf, inf where open */
   bool truncated;
+  bool conforms; /* truncated to what is possible: also drawn again where a constraint is broken */
 };
 
 /* Quantile at probability u in (0, 1). */
@@ -33,6 +34,8 @@ double distribution_quantile(const struct distribution *, double u);
 /* The value that belongs to a standard normal variable z: the quantile at z's probability, exact in
  * both tails. */
 double distribution_of_normal(const struct distribution *, double z);
+/* Probability that truncation cuts off. */
+double distribution_cut(const struct distribution *);
 /* Probability below x. */
 double distribution_below(const struct distribution *, double x);
 

@@ -231,7 +231,7 @@ static bool is_required(const struct descriptor *d, const char *name)
       [GAMUT_KIND_STRENGTH] = {"flow_stress"},
       [GAMUT_KIND_ELASTICITY] = {"stress"},
       [GAMUT_KIND_RANDOM_FIELD] = {"sample"},
-      [GAMUT_KIND_ESTIMATOR] = {"create", "destroy", "ask", "tell", "report", "save", "restore"},
+      [GAMUT_KIND_ESTIMATOR] = {"create", "destroy", "ask", "tell", "save", "restore"},
       [GAMUT_KIND_SOLVER] = {"create", "destroy", "start", "next"},
   };
   for (size_t i = 0; i < 8 && required[d->kind][i]; i++)
@@ -239,6 +239,8 @@ static bool is_required(const struct descriptor *d, const char *name)
       return true;
   if (strcmp(name, "inverse") == 0)
     return d->inverse;
+  if (d->kind == GAMUT_KIND_ESTIMATOR && strcmp(name, "report") == 0)
+    return !d->yields_table;
   return strcmp(name, "measure") == 0 && measures_by_code(d);
 }
 

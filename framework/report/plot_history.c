@@ -77,7 +77,7 @@ static void write_line(FILE *script, const struct result_history *history, size_
           name, axis, factor, red, green, blue);
   if (curves > 1 && (number == 0 || number + 1 == curves || curves <= 12)) {
     fprintf(script, "title ");
-    plot_text(script, history->name);
+    plot_text(script, history->label ? history->label : history->name);
   } else {
     fprintf(script, "notitle");
   }

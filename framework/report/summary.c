@@ -61,8 +61,8 @@ static void write_means(const json_t *quantity, const char *unit, FILE *file)
     }
   }
   if (most < 0) {
-    fprintf(file, "a curve without numbers%s%s\n",
-            json_object_get(quantity, "reason") ? ": " : "", word(quantity, "reason", ""));
+    fprintf(file, "a curve without numbers%s%s\n", json_object_get(quantity, "reason") ? ": " : "",
+            word(quantity, "reason", ""));
     return;
   }
   double value = json_number_value(json_array_get(means, best));
@@ -77,6 +77,18 @@ static void write_means(const json_t *quantity, const char *unit, FILE *file)
     fprintf(file, ", standard deviation %s there",
             readable_like(sqrt(json_number_value(variance)), value, unit, text, sizeof text));
   fputc('\n', file);
+}
+
+/* Of the standard deviation, from that of the variance: " (95 %: 3.1 MPa to 4.8 MPa)" */
+static void write_interval(const json_t *interval, double like, const char *unit, FILE *file)
+{
+  const json_t *lower = json_array_get(interval, 0), *upper = json_array_get(interval, 1);
+  char low[48], high[48];
+  if (!json_is_number(lower) || !json_is_number(upper))
+    return;
+  fprintf(file, " (95 %%: %s to %s)",
+          readable_like(sqrt(json_number_value(lower)), like, unit, low, sizeof low),
+          readable_like(sqrt(json_number_value(upper)), like, unit, high, sizeof high));
 }
 
 static void write_quantity(const char *name, const json_t *quantity, int width, FILE *file)
@@ -106,7 +118,12 @@ static void write_quantity(const char *name, const json_t *quantity, int width, 
   if (!isnan(variance))
     fprintf(file, ", standard deviation %s",
             readable_like(sqrt(variance), value, unit, text, sizeof text));
+  write_interval(json_object_get(quantity, "variance_interval"), value, unit, file);
   fputc('\n', file);
+  if (json_object_get(quantity, "conditional"))
+    fprintf(file, "  %-*s  conditional: %s\n", width, "", word(quantity, "conditional", ""));
+  if (json_object_get(quantity, "caution"))
+    fprintf(file, "  %-*s  caution: %s\n", width, "", word(quantity, "caution", ""));
 }
 
 static void write_quantities(json_t *quantities, FILE *file)
@@ -146,6 +163,23 @@ static void write_ledger(json_t *ledger, FILE *file)
     fprintf(file, " of the largest part\n");
 }
 
+/* "  pressure up to 16.2 GPa": a curve in a row of the levels. */
+static void write_peak(const char *name, const json_t *values, const char *unit, FILE *file)
+{
+  double peak = NAN;
+  char text[48];
+  size_t index;
+  json_t *entry;
+  json_array_foreach(values, index, entry)
+  {
+    const double value = json_is_number(entry) ? json_number_value(entry) : NAN;
+    if (isnan(peak) || fabs(value) > fabs(peak))
+      peak = value;
+  }
+  fprintf(file, "  %s %s%s", name, isnan(peak) ? "no value" : "up to ",
+          isnan(peak) ? "" : readable(peak, unit, text, sizeof text));
+}
+
 /* What was varied beside what came out. */
 static void write_levels(const json_t *levels, const json_t *quantities, FILE *file)
 {
@@ -166,13 +200,36 @@ static void write_levels(const json_t *levels, const json_t *quantities, FILE *f
       fprintf(file, " %s: %s ", name, json_string_value(value));
     }
     fprintf(file, " ->");
+    if (strcmp(word(level, "status", "ok"), "ok") != 0) {
+      fprintf(file, "  %s\n", word(level, "status", "?"));
+      continue;
+    }
     json_object_foreach(json_object_get(level, "quantities"), name, value)
     {
       const char *unit = word(json_object_get(quantities, name), "unit", "1");
-      fprintf(file, "  %s %s", name,
-              json_is_number(value) ? readable(json_number_value(value), unit, text, sizeof text)
-                                    : "no value");
+      if (json_is_object(value))
+        write_peak(name, json_object_get(value, "values"), unit, file);
+      else
+        fprintf(file, "  %s %s", name,
+                json_is_number(value) ? readable(json_number_value(value), unit, text, sizeof text)
+                                      : "no value");
     }
+    fputc('\n', file);
+  }
+}
+
+static void write_truncation(const json_t *cuts, FILE *file)
+{
+  size_t index;
+  json_t *cut;
+  json_array_foreach(cuts, index, cut)
+  {
+    const char *constraint = word(cut, "constraint", NULL);
+    fprintf(file, "truncated: %s, %s%.3g %% cut off", word(cut, "parameter", "?"),
+            constraint ? "about " : "", 100 * number(cut, "cut_off", NAN));
+    if (constraint)
+      fprintf(file, " by '%s' (%.0f runs drawn again)", constraint,
+              number(cut, "runs_drawn_again", 0));
     fputc('\n', file);
   }
 }
@@ -188,7 +245,8 @@ static void write_study(const json_t *study, FILE *file)
   fprintf(file, "study: %s, %.0f runs", word(study, "estimator", "?"), number(study, "asked", 0));
   if (number(study, "failed", 0) > 0)
     fprintf(file, ", %.0f of them failed%s", number(study, "failed", 0),
-            json_object_get(study, "note") ? ": the moments are those of the rest" : "");
+            json_object_get(study, "note") ? ": the moments are conditional, those of the rest"
+                                           : "");
   if (number(cost, "from_log", 0) > 0)
     fprintf(file, ", %.0f taken from the log", number(cost, "from_log", 0));
   fprintf(file, "; %.3g s on %.0f thread%s\n", number(cost, "wall_s", 0),
@@ -229,10 +287,13 @@ void report_summary(const char *summary_json, FILE *file)
     fprintf(file, "the summary cannot be read: %s\n", error.text);
     return;
   }
-  write_quantities(json_object_get(summary, "quantities"), file);
-  write_ledger(json_object_get(summary, "ledger"), file);
   const json_t *study = json_object_get(summary, "study");
   const json_t *levels = json_object_get(study, "levels");
+  const bool table = strcmp(word(study, "yields", ""), "table") == 0;
+  if (!table)
+    write_quantities(json_object_get(summary, "quantities"), file);
+  write_ledger(json_object_get(summary, "ledger"), file);
+  write_truncation(json_object_get(study, "truncation"), file);
   if (levels)
     write_levels(levels, json_object_get(summary, "quantities"), file);
   if (study)

@@ -98,6 +98,9 @@ bool unit_is_pure(const char *unit);
 /* A number in SI from a scalar; faults are told at the node. */
 bool amount_read(struct reading *, const struct tree *, const char *name, const char *unit,
                  double *value);
+/* The same for a difference of two such quantities: 20 degC are 20 K. */
+bool interval_read(struct reading *, const struct tree *, const char *name, const char *unit,
+                     double *value);
 /* A sequence of numbers; the array is the caller's to free, null with a fault. */
 double *vector_read(struct reading *, const struct tree *, const char *name, const char *unit,
                     size_t least, size_t most, size_t *count);
@@ -143,6 +146,9 @@ bool given_set_names(const struct descriptor *, const char *name);
 const struct given_set *given_set_chosen(const struct values *, const struct descriptor *);
 /* Chooses the given set, derives, checks ranges of what is derived, then the constraints. */
 void values_check(struct reading *, struct values *, const struct descriptor *, const char *what);
+/* Whether a constraint, or the range of what is derived, does not hold; `conflict` gets it. Silent.
+ */
+bool values_conflict(struct values *, const struct descriptor *, char *conflict, size_t size);
 
 /* Parts of a scene. */
 

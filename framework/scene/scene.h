@@ -225,8 +225,8 @@ struct scene {
   struct instance estimator; /* descriptor null: no study */
   uint64_t seed;
   double failures;     /* share of the runs of a study that may fail */
-  double *correlation; /* of the normal variables behind the random parameters, row by row, positive
-                          definite; null: independent */
+  double *correlation; /* of the normal variables behind the random parameters, row by row, no
+                          eigenvalue below 0; null: independent */
 };
 
 /* From --set path=value, or a node of some scene, which is copied: faults then have its place. */
@@ -283,6 +283,12 @@ bool pointwise_work_out(const struct pointwise *, double *number, size_t *index,
 /* Gives every random parameter a value (one each, in order), derives what follows from them, checks
  * ranges and constraints. GAMUT_SCENE where such a scene could not be. */
 gamut_status scene_draw(struct scene *, const double *value, struct trace *);
+
+/* A draw (as scene_draw) against a constraint of a plugin, or the range of what is derived there,
+ * where some parameter of that plugin has `truncate: true`: that parameter; `conflict` gets the
+ * constraint. Null: there is nothing to draw again for. Sets the parameters. */
+const struct random_parameter *scene_conflict(struct scene *, const double *value, char *conflict,
+                                              size_t size);
 
 /* JSON Schema of scenes, for editors, from the registry. */
 void schema_write(const struct registry *, FILE *);

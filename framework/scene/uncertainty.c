@@ -124,6 +124,31 @@ gamut_status scene_draw(struct scene *scene, const double *drawn, struct trace *
   return status;
 }
 
+/* The first of the parameters from i on, all of one plugin, that is to be what its plugin takes. */
+static const struct random_parameter *conforming(const struct scene *scene, size_t i)
+{
+  const struct random_parameter *random = scene->random_parameter;
+  for (size_t k = i; k < scene->random_parameters && random[k].values == random[i].values; k++)
+    if (random[k].distribution->conforms)
+      return &random[k];
+  return NULL;
+}
+
+const struct random_parameter *scene_conflict(struct scene *scene, const double *drawn,
+                                              char *conflict, size_t size)
+{
+  const struct random_parameter *random = scene->random_parameter, *found = NULL;
+  for (size_t i = 0; i < scene->random_parameters; i++)
+    *random[i].number = drawn[i];
+  for (size_t i = 0; i < scene->random_parameters && !found; i++) {
+    const struct random_parameter *mends = conforming(scene, i);
+    if (mends && random[i].descriptor && (i == 0 || random[i - 1].values != random[i].values) &&
+        values_conflict(random[i].values, random[i].descriptor, conflict, size))
+      found = mends;
+  }
+  return found;
+}
+
 static bool random_named(struct reading *reading, const struct tree *node, size_t *index)
 {
   const struct scene *scene = reading->scene;
@@ -167,9 +192,9 @@ static bool row_read(struct reading *reading, const struct tree *row)
                 "a parameter is always fully correlated with itself");
     return false;
   }
-  if (!(fabs(number) < 1)) {
-    blame_value(reading, row->child[2], "between -1 and 1, neither",
-                "%.6g is no correlation of two parameters", number);
+  if (!(fabs(number) <= 1)) {
+    blame_value(reading, row->child[2], "from -1 to 1", "%.6g is no correlation of two parameters",
+                number);
     return false;
   }
   if (scene->correlation[i * n + k] != 0) {
@@ -201,11 +226,11 @@ static void correlation_read(struct reading *reading, const struct tree *node)
   if (!fine)
     return;
   double least = correlation_smallest(scene->correlation, n);
-  if (!(least > CORRELATION_LEAST))
+  if (!(least >= -CORRELATION_LEAST))
     blame_value(reading, node, "make some of them smaller",
                 "no random parameters have these correlations together: the smallest eigenvalue "
-                "of their matrix is %.3g, not above 0",
-                fabs(least) <= CORRELATION_LEAST ? 0.0 : least);
+                "of their matrix is %.3g, below 0",
+                least);
 }
 
 static void seed_read(struct reading *reading, const struct tree *node)
@@ -233,6 +258,12 @@ static void failures_read(struct reading *reading, const struct tree *node)
                 "'failures' is the share of runs that may fail");
 }
 
+/* `off`: one run at the means, as if there were no estimator. */
+static bool says_off(const struct tree *node)
+{
+  return node->kind == TREE_SCALAR && strcmp(node->text, "off") == 0;
+}
+
 void uncertainty_read(struct reading *reading, const struct tree *root)
 {
   static const char *const known[] = {"estimator", "correlation", "seed", "failures"};
@@ -246,7 +277,7 @@ void uncertainty_read(struct reading *reading, const struct tree *root)
   failures_read(reading, tree_get(node, "failures"));
   correlation_read(reading, tree_get(node, "correlation"));
   estimator = tree_get(node, "estimator");
-  if (estimator)
+  if (estimator && !says_off(estimator))
     instance_read(reading, GAMUT_KIND_ESTIMATOR, "estimator", estimator, NULL, 0,
                   &reading->scene->estimator);
 }

@@ -32,8 +32,11 @@ static bool not_a_scalar(struct reading *reading, const struct tree *node, const
   return false;
 }
 
-bool amount_read(struct reading *reading, const struct tree *node, const char *name,
-                 const char *unit, double *value)
+typedef enum unit_result unit_reader(const struct units *, const char *text, const char *unit,
+                                     double *value);
+
+static bool number_read_by(unit_reader *read, struct reading *reading, const struct tree *node,
+                           const char *name, const char *unit, double *value)
 {
   char text[64], expected[320] = "a number, such as 0.3", due[96];
   if (node->kind != TREE_SCALAR)
@@ -44,7 +47,7 @@ bool amount_read(struct reading *reading, const struct tree *node, const char *n
   snprintf(due, sizeof due, "%s", pure ? "" : unit_example(unit));
   if (!pure)
     snprintf(expected, sizeof expected, "a number with a unit like %s, such as '%s'", unit, due);
-  enum unit_result result = unit_read(reading->units, node->text, pure ? "1" : unit, value);
+  enum unit_result result = read(reading->units, node->text, pure ? "1" : unit, value);
   char *after;
   if (result == UNIT_OK && node->quoted) {
     strtod(node->text, &after); /* quotes around a number with a unit do no harm */
@@ -82,6 +85,18 @@ bool amount_read(struct reading *reading, const struct tree *node, const char *n
   }
   blame_value(reading, node, expected, "%s: '%s' %s", name, text, words);
   return false;
+}
+
+bool amount_read(struct reading *reading, const struct tree *node, const char *name,
+                 const char *unit, double *value)
+{
+  return number_read_by(unit_read, reading, node, name, unit, value);
+}
+
+bool interval_read(struct reading *reading, const struct tree *node, const char *name,
+                   const char *unit, double *value)
+{
+  return number_read_by(unit_read_difference, reading, node, name, unit, value);
 }
 
 bool range_check(struct reading *reading, const struct parameter *parameter,

@@ -5,7 +5,7 @@
 #include "scene/reading.h"
 
 static const char *const kind_names[] = DISTRIBUTION_NAMES;
-static const char *const known_keys[] = {"mean",  "cv",    "sd",      "distribution",
+static const char *const known_keys[] = {"mean",  "cv",    "sd",       "distribution",
                                          "lower", "upper", "truncate", "field"};
 
 static bool bounded(enum distribution_kind kind)
@@ -49,6 +49,16 @@ static bool part(struct reading *reading, const struct tree *node, const char *k
   return !required;
 }
 
+/* Whether a number stands in a scale with a zero of its own (degC): its share says nothing. */
+static bool has_own_zero(const struct reading *reading, const char *unit, const struct tree *node)
+{
+  double stated, difference;
+  return node && node->kind == TREE_SCALAR && !unit_is_pure(unit) &&
+         unit_read(reading->units, node->text, unit, &stated) == UNIT_OK &&
+         unit_read_difference(reading->units, node->text, unit, &difference) == UNIT_OK &&
+         stated != difference;
+}
+
 static bool spread_read(struct reading *reading, const char *unit, const struct tree *node,
                         struct distribution *d)
 {
@@ -63,12 +73,17 @@ static bool spread_read(struct reading *reading, const char *unit, const struct 
                 "the spread of the random '%s' is missing", node->key ? node->key : "value");
     return false;
   }
-  if (!part(reading, node, "sd", unit, false, &d->deviation) ||
+  if ((sd_node && !interval_read(reading, sd_node, "sd", unit, &d->deviation)) ||
       !part(reading, node, "cv", "1", false, &cv))
     return false;
   if (cv_node && d->mean == 0) {
     blame_value(reading, cv_node, "give 'sd' with the unit instead",
                 "'cv' of a random value with mean 0 says nothing");
+    return false;
+  }
+  if (cv_node && has_own_zero(reading, unit, tree_get(node, "mean"))) {
+    blame_value(reading, cv_node, "give 'sd', which is a difference, or the mean in K",
+                "'cv' of a mean in a scale with a zero of its own says nothing");
     return false;
   }
   if (cv_node)
@@ -145,6 +160,26 @@ static bool agrees(struct reading *reading, const struct tree *node, struct dist
   return false;
 }
 
+/* [lower, upper]; an open end is -inf or inf. */
+static bool truncation_ends(struct reading *reading, const char *unit, const struct tree *given,
+                            double ends[2])
+{
+  static const char *const open[2] = {"-inf", "inf"};
+  if (given->kind != TREE_SEQUENCE || given->children != 2) {
+    blame_value(reading, given, "[lower, upper], such as [300 K, inf]",
+                "'truncate' has not two ends");
+    return false;
+  }
+  for (int i = 0; i < 2; i++) {
+    const struct tree *end = given->child[i];
+    ends[i] = i ? INFINITY : -INFINITY;
+    if (!(end->kind == TREE_SCALAR && strcmp(end->text, open[i]) == 0) &&
+        !amount_read(reading, end, "truncate", unit, &ends[i]))
+      return false;
+  }
+  return true;
+}
+
 static bool truncate_read(struct reading *reading, const struct parameter *parameter,
                           const struct tree *node, struct distribution *d)
 {
@@ -159,7 +194,7 @@ static bool truncate_read(struct reading *reading, const struct parameter *param
   if (!given || (given->kind == TREE_SCALAR && strcmp(given->text, "false") == 0))
     return true;
   if (given->kind == TREE_SCALAR && strcmp(given->text, "true") == 0) {
-    d->truncated = true;
+    d->truncated = d->conforms = true;
     if (physical->stated) {
       d->lower = physical->lower;
       d->upper = physical->upper;
@@ -171,18 +206,17 @@ static bool truncate_read(struct reading *reading, const struct parameter *param
                 "'truncate' cannot be '%.40s'", given->text);
     return false;
   }
-  size_t count = 0;
-  double *ends = vector_read(reading, given, "truncate", parameter->unit, 2, 2, &count);
-  bool fine = ends && ends[0] < ends[1] && ends[0] < d->mean && d->mean < ends[1];
-  if (fine) {
-    d->truncated = true;
-    d->lower = ends[0];
-    d->upper = ends[1];
-  } else if (ends) {
+  double ends[2];
+  if (!truncation_ends(reading, parameter->unit, given, ends))
+    return false;
+  if (!(ends[0] < ends[1] && ends[0] < d->mean && d->mean < ends[1])) {
     blame_value(reading, given, "[lower, upper] around the mean", "nothing is left by 'truncate'");
+    return false;
   }
-  free(ends);
-  return fine;
+  d->truncated = true;
+  d->lower = ends[0];
+  d->upper = ends[1];
+  return true;
 }
 
 /* Probability outside the physical range. */

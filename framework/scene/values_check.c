@@ -212,6 +212,28 @@ void values_check(struct reading *reading, struct values *values,
   constrain(reading, values, descriptor, what);
 }
 
+bool values_conflict(struct values *values, const struct descriptor *descriptor, char *conflict,
+                     size_t size)
+{
+  struct reading unheard = {.here = values->node};
+  derive(&unheard, values, descriptor, "");
+  bool found = unheard.faults > 0;
+  if (found)
+    snprintf(conflict, size, "the ranges of what follows from them");
+  struct numbers n = numbers_of(values);
+  for (size_t i = 0; i < descriptor->constraints && !found; i++) {
+    struct expression *expression;
+    double holds = 1;
+    found = evaluate(&unheard, &n, descriptor->constraint[i], "", &expression, &holds) &&
+            !(holds != 0 && !isnan(holds));
+    if (found)
+      snprintf(conflict, size, "%s", descriptor->constraint[i]);
+    expression_free(expression);
+  }
+  numbers_free(&n);
+  return found;
+}
+
 gamut_status values_set(struct values *values, const struct descriptor *descriptor,
                         size_t parameter, double real, struct trace *trace)
 {

@@ -78,7 +78,23 @@ static bool read_deviation(hid_t group, struct result_history *history)
   return history->deviation && count == history->count;
 }
 
-static bool read_history(hid_t parent, size_t index, struct result_history *history)
+/* The curve of one run among several stands below its quantity: they are told apart by number. */
+static bool name_member(struct result_history *history)
+{
+  history->label = NULL;
+  if (!history->family)
+    return true;
+  const size_t size = strlen(history->family) + strlen(history->name) + 2;
+  char *name = malloc(size);
+  if (!name)
+    return false;
+  snprintf(name, size, "%s.%s", history->family, history->name);
+  free(history->name);
+  history->name = name;
+  return true;
+}
+
+static bool read_history(hid_t parent, size_t index, bool member, struct result_history *history)
 {
   size_t columns, times = 0;
   history->name = hdf5_link_name(parent, index);
@@ -89,15 +105,63 @@ static bool read_history(hid_t parent, size_t index, struct result_history *hist
   history->family = hdf5_read_text_attribute(group, "family");
   if (!history->axis)
     history->axis = strdup("time");
-  bool study = H5Lexists(group, "mean", H5P_DEFAULT) > 0;
-  const char *value = study ? "mean" : "value";
+  bool sample = H5Lexists(group, "mean", H5P_DEFAULT) > 0;
+  const char *value = sample ? "mean" : "value";
   history->unit = dataset_unit(group, value);
   history->axis_unit = dataset_unit(group, history->axis);
   history->time = hdf5_read_reals(group, history->axis, &times, &columns);
   history->value = hdf5_read_reals(group, value, &history->count, &columns);
-  bool whole = !study || !history->value || read_deviation(group, history);
+  bool whole = !sample || !history->value || read_deviation(group, history);
+  if (member)
+    whole = name_member(history) && whole;
+  if (member)
+    history->label = hdf5_read_text_attribute(group, "label");
   H5Gclose(group);
   return whole && history->time && history->value && times == history->count;
+}
+
+/* Whether a quantity of a study holds one curve a run, each in a group of its own. */
+static bool has_members(hid_t parent, const char *name)
+{
+  hid_t group = H5Gopen2(parent, name, H5P_DEFAULT);
+  bool members = group >= 0 && H5Lexists(group, "mean", H5P_DEFAULT) <= 0 &&
+                 H5Lexists(group, "value", H5P_DEFAULT) <= 0;
+  if (group >= 0)
+    H5Gclose(group);
+  return members;
+}
+
+struct reading {
+  struct result_history *history;
+  size_t count, room;
+};
+
+static bool read_all(hid_t parent, size_t links, bool member, struct reading *reading)
+{
+  bool good = true;
+  for (size_t i = 0; good && i < links; i++) {
+    char *name = hdf5_link_name(parent, i);
+    if (name && !member && has_members(parent, name)) {
+      hid_t group = H5Gopen2(parent, name, H5P_DEFAULT);
+      good = group >= 0 && read_all(group, count_links(parent, name), true, reading);
+      if (group >= 0)
+        H5Gclose(group);
+    } else {
+      if (reading->count == reading->room) {
+        const size_t room = 2 * reading->room + 16;
+        struct result_history *grown = realloc(reading->history, room * sizeof *grown);
+        good = grown != NULL;
+        reading->history = good ? grown : reading->history;
+        reading->room = good ? room : reading->room;
+      }
+      if (good) {
+        reading->history[reading->count] = (struct result_history){0};
+        good = read_history(parent, i, member, &reading->history[reading->count++]);
+      }
+    }
+    free(name);
+  }
+  return good;
 }
 
 gamut_status result_histories(const struct result *result, struct trace *trace,
@@ -112,27 +176,22 @@ gamut_status result_histories(const struct result *result, struct trace *trace,
   size_t links = count_links(result->file, place);
   if (links == 0)
     return GAMUT_OK;
+  struct reading reading = {0};
   hid_t group = H5Gopen2(result->file, place, H5P_DEFAULT);
-  *histories = calloc(links, sizeof **histories);
   if (group >= 0 && !checksum_holds(group, CURVES_NAME, NULL)) {
     H5Gclose(group);
-    free(*histories);
-    *histories = NULL;
     return trace_fail(trace, GAMUT_OUTPUT,
                       "the histories in '%s' are damaged: their checksum is wrong", result->path);
   }
-  bool good = group >= 0 && *histories;
-  for (size_t i = 0; good && i < links; ++i) {
-    *count = i + 1;
-    good = read_history(group, i, &(*histories)[i]);
-  }
+  bool good = group >= 0 && read_all(group, links, false, &reading);
   if (group >= 0)
     H5Gclose(group);
-  if (good)
+  if (good) {
+    *histories = reading.history;
+    *count = reading.count;
     return GAMUT_OK;
-  result_histories_free(*histories, *count);
-  *histories = NULL;
-  *count = 0;
+  }
+  result_histories_free(reading.history, reading.count);
   return hdf5_fault(result->path, "read the histories of", trace);
 }
 
@@ -147,6 +206,7 @@ void result_histories_free(struct result_history *history, size_t count)
     free(history[i].time);
     free(history[i].value);
     free(history[i].deviation);
+    free(history[i].label);
   }
   free(history);
 }

@@ -44,6 +44,7 @@ struct result_history {
   char *family; /* of one of several points: the quantity's name in the scene; else null */
   size_t count;
   double *time, *value;
+  char *label;       /* of one of several runs that are no sample: what sets it apart; else null */
   double *deviation; /* of a study, whose mean is `value`; null: of one run */
 };
 gamut_status result_histories(const struct result *, struct trace *, struct result_history **,

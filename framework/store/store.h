@@ -97,20 +97,35 @@ struct table_column {
   const double *value;               /* one a row; NaN: nothing there; or */
   const char *const *text;           /* one a row */
 };
-/* FILE (CSV) in the folder, and one dataset a column in GROUP of results.h5. */
+/* FILE (CSV) in the folder, and one dataset a column in GROUP of results.h5, without the first
+ * `above` rows: those are for people and part of no sample. */
 gamut_status store_table(struct store *, const char *file, const char *group,
-                         const struct table_column *, size_t columns, size_t rows, struct trace *);
+                         const struct table_column *, size_t columns, size_t rows, size_t above,
+                         struct trace *);
 /* Moments of a curve over the runs. */
 struct table_curve {
   const char *name, *unit, *axis, *axis_unit, *meaning;
   size_t count;
   const double *at, *mean, *variance, *mean_error, *variance_error; /* count each */
+  const double *mean_interval[2], *variance_interval[2];            /* lower and upper ends */
+  const double *nominal;                                            /* the run at the means */
   const double *run; /* runs x count: the curves themselves */
   size_t runs;       /* 0: they are not kept */
 };
-/* history.csv, and GROUP/NAME/{AXIS, mean, variance, mean_error, variance_error, runs}. */
+/* history.csv, and GROUP/NAME/{AXIS, mean, variance, mean_error, variance_error, mean_lower,
+ * mean_upper, variance_lower, variance_upper, nominal, runs}. */
 gamut_status store_curves(struct store *, const char *group, const struct table_curve *,
                           size_t curves, struct trace *);
+/* The curve of one run among several that are no sample. */
+struct table_member {
+  const char *name, *unit, *axis, *axis_unit, *meaning;
+  const char *label; /* what sets it apart */
+  size_t run, count;
+  const double *at, *value;
+};
+/* history.csv, and GROUP/NAME/RUN/{AXIS, value}; those of one name follow one another. */
+gamut_status store_members(struct store *, const char *group, const struct table_member *,
+                           size_t members, struct trace *);
 const char *store_folder(const struct store *);
 
 #endif

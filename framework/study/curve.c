@@ -50,6 +50,7 @@ gamut_status values_axes(struct study *study, const struct gamut_run *run)
     struct measured *m = &study->measured[i];
     if (m->curve) {
       m->count = history[i]->count;
+      free(m->at);
       m->at = calloc(m->count + 1, sizeof *m->at);
       if (!m->at)
         return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
@@ -113,19 +114,38 @@ static void take_curve(const struct measured *m, const struct history *h, double
       value[i] = NAN;
 }
 
-void values_take(const struct study *study, const struct gamut_run *run, double *value)
+static bool take_own(const struct history *h, struct own_curve *own)
+{
+  own->at = calloc(h->count + 1, sizeof *own->at);
+  own->value = calloc(h->count + 1, sizeof *own->value);
+  if (!own->at || !own->value)
+    return false;
+  own->count = h->count;
+  memcpy(own->at, h->time, h->count * sizeof *own->at);
+  memcpy(own->value, h->value, h->count * sizeof *own->value);
+  return true;
+}
+
+gamut_status values_take(const struct study *study, const struct gamut_run *run,
+                         struct outcome *outcome)
 {
   size_t count;
   struct history *const *history = run_histories(run, &count);
+  double *value = outcome->value;
   for (size_t i = 0; i < study->quantities; i++) {
     const struct measured *m = &study->measured[i];
     char unit[64], why[200];
-    if (m->curve)
+    if (m->curve && study->table) {
+      if (!take_own(history[i], &outcome->own[i]))
+        return GAMUT_INTERNAL;
+    } else if (m->curve) {
       take_curve(m, history[i], value + m->first);
-    else if (!reduction_value(&m->quantity->reduction, history[i], &value[m->first], unit,
-                              sizeof unit, why, sizeof why))
+    } else if (!reduction_value(&m->quantity->reduction, history[i], &value[m->first], unit,
+                                sizeof unit, why, sizeof why)) {
       value[m->first] = NAN;
+    }
   }
+  return GAMUT_OK;
 }
 
 size_t curve_overlap(const struct study *study, const struct measured *m, size_t *kept)

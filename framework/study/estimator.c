@@ -1,3 +1,4 @@
+#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 
@@ -64,22 +65,31 @@ gamut_status estimator_new(struct study *study)
   size_t rows = batch_rows(study), values = study->values;
   TRY(registry_open(study->registry, instance->descriptor, study->trace, &plugin));
   const struct estimator_operations *ops = plugin->ops;
-  if (!ops->create || !ops->destroy || !ops->ask || !ops->tell || !ops->report)
+  if (!ops->create || !ops->destroy || !ops->ask || !ops->tell || (!study->table && !ops->report))
     return trace_fail(study->trace, GAMUT_PLUGIN,
-                      "%s lacks one of the operations create, destroy, ask, tell, report",
-                      instance->descriptor->id);
+                      "%s lacks one of the operations create, destroy, ask, tell%s",
+                      instance->descriptor->id, study->table ? "" : ", report");
   struct gamut_batch *batch = &study->batch;
   *batch =
       (struct gamut_batch){.parameters = study->parameters, .quantities = values, .capacity = rows};
   batch->point = calloc(rows * study->parameters + 1, sizeof *batch->point);
   batch->level = calloc(rows, sizeof *batch->level);
   batch->value = study->told = calloc(rows * values + 1, sizeof *study->told);
-  double *moment = study->moment = calloc(4 * values + 1, sizeof *moment);
+  double *moment = study->moment = calloc(MOMENTS * values + 1, sizeof *moment);
   study->asked_on = calloc(study->levels + 1, sizeof *study->asked_on);
   if (!batch->point || !batch->level || !study->told || !moment || !study->asked_on)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
-  study->moments =
-      (struct gamut_moments){moment, moment + values, moment + 2 * values, moment + 3 * values};
+  for (size_t i = 0; i < MOMENTS * values; i++)
+    moment[i] = NAN;
+  study->moments = (struct gamut_moments){.mean = moment,
+                                          .variance = moment + values,
+                                          .mean_error = moment + 2 * values,
+                                          .variance_error = moment + 3 * values,
+                                          .mean_lower = moment + 4 * values,
+                                          .mean_upper = moment + 5 * values,
+                                          .variance_lower = moment + 6 * values,
+                                          .variance_upper = moment + 7 * values,
+                                          .heavy_tail = moment + 8 * values};
   study->host = (struct estimator_host){.head = {&study_host}, .trace = study->trace};
   host_of_values(instance->values, &study_host);
   const struct gamut_study_shape shape = {
@@ -87,9 +97,8 @@ gamut_status estimator_new(struct study *study)
       .quantities = values,
       .levels = study->levels,
       .stream = stream_make(study->scene->seed, 0, "uncertainty.estimator")};
-  TRY(GUARDED(instance->descriptor->id,
-              ops->create((struct gamut_run *)(void *)&study->host, instance->values, &shape,
-                          &study->self)));
+  TRY(GUARDED(instance->descriptor->id, ops->create((struct gamut_run *)(void *)&study->host,
+                                                    instance->values, &shape, &study->self)));
   study->ops = ops;
 done:
   return status;

@@ -26,6 +26,12 @@ struct measured {
   double *at;                   /* the common axis */
 };
 
+/* The curve of one run on its own axis. */
+struct own_curve {
+  size_t count;
+  double *at, *value;
+};
+
 /* One run. */
 struct outcome {
   size_t level;
@@ -34,6 +40,9 @@ struct outcome {
   char *reason;      /* why it failed; null: it did not */
   double *parameter; /* what was drawn; the mean where nothing was */
   double *value;     /* NaN where there is none */
+  struct own_curve *own; /* where runs are no sample: one a quantity */
+  size_t owns;
+  bool again; /* what was drawn first was not possible */
   uint64_t steps, points;
   double wall, cpu; /* s */
 };
@@ -42,6 +51,20 @@ struct outcome {
 struct estimator_host {
   struct gamut_run_head head; /* first */
   struct trace *trace;
+};
+
+/* What truncation takes away from the distribution of a parameter, or a constraint from that of all
+ * the parameters that are drawn again for it. */
+struct cut {
+  const struct random_parameter *parameter;
+  char constraint[200]; /* empty: the parameter's own ends */
+  double share;         /* of the constraint: estimated from trial draws */
+};
+
+struct worker {
+  struct scene *scene;
+  size_t level;
+  size_t *parameter; /* which of the study's parameters each of the scene's is */
 };
 
 struct study {
@@ -56,7 +79,11 @@ struct study {
   struct level *level;
   size_t levels;
 
+  bool table; /* runs are no sample: each has its own curves, and there are no moments */
   size_t parameters;
+  struct cut *cut;
+  size_t cuts;
+  struct worker probe; /* its scene judges what is drawn */
   double *lower; /* Cholesky's factor; null: independent */
 
   struct measured *measured; /* one a quantity of the scene */
@@ -67,9 +94,10 @@ struct study {
   void *self;
   struct gamut_batch batch;
   double *told;
-  double *moment; /* mean, variance, mean_error, variance_error of each value, once reported */
+  double *moment; /* MOMENTS of each value, once reported */
   struct gamut_moments moments;
 
+  struct outcome nominal;  /* the run at the means, where runs are a sample; in no statistic */
   struct outcome *outcome; /* in the order of asking */
   size_t runs, room;
   size_t *asked_on;                  /* runs asked for so far, one a level */
@@ -92,26 +120,35 @@ void levels_free(struct study *);
 gamut_status level_scene(const struct study *, size_t level, struct trace *, struct scene **);
 /* "0.4 mm", "[0 m/s, -150 m/s]": a varied value as text, allocated. */
 char *level_text(const struct study *, size_t level, size_t varied);
+/* "cell: 0.4 mm, velocity: [0 m/s, -150 m/s]": what a level sets, for tables and pictures; by whole
+ * paths where two end alike. Allocated. */
+char *level_label(const struct study *, size_t level);
 
 /* draw.c: a row of the estimator as values of the parameters. */
-gamut_status draw_prepare(struct study *);
+gamut_status draw_prepare(struct study *); /* after levels_make */
+/* Draws again, from a stream of the run's number, what a constraint forbids. */
+gamut_status draw_run(struct study *, size_t number, const double *normal, struct outcome *);
 void draw_row(const struct study *, const double *normal, double *parameter);
 
 /* curve.c: what a run's histories give. */
 gamut_status values_plan(struct study *, const struct gamut_run *);
 gamut_status values_axes(struct study *, const struct gamut_run *);
 void values_place(struct study *); /* columns, once all counts are known */
-void values_take(const struct study *, const struct gamut_run *, double *value);
+/* GAMUT_INTERNAL when out of memory. */
+gamut_status values_take(const struct study *, const struct gamut_run *, struct outcome *);
 /* Points of the common axis that every run that did not fail has; `kept` gets their numbers. */
 size_t curve_overlap(const struct study *, const struct measured *, size_t *kept);
 
+/* nominal.c: plans what is measured, opens plugins and folder, makes the run at the means. */
+gamut_status nominal_prepare(struct study *, const char *folder);
+
 /* work.c */
-struct worker {
-  struct scene *scene;
-  size_t level;
-  size_t *parameter; /* which of the study's parameters each of the scene's is */
-};
 void worker_clear(struct worker *);
+/* Gives it the scene of a level. */
+gamut_status worker_take(const struct study *, struct worker *, size_t level, struct trace *);
+/* A mistake of the numbers or of a draw is a run's alone; what is wrong with the program, with a
+ * plugin or with the machine ends the study. */
+bool ends_run_only(gamut_status);
 /* Makes one run. GAMUT_OK also where it failed (outcome->reason); GAMUT_STOPPED where it was told
  * to stop; else what ends the study. */
 gamut_status work_run(struct study *, struct worker *, struct outcome *);
@@ -123,6 +160,7 @@ gamut_status log_resume(struct study *, const char *folder, bool *there);
 gamut_status log_begin(struct study *, const char *folder);
 bool log_has_axes(const struct study *);
 gamut_status log_axes(struct study *);
+gamut_status log_nominal(struct study *);
 gamut_status log_run(struct study *, size_t number, const struct outcome *);
 /* Whether the log is still in the folder: what is written to a removed file is lost. */
 gamut_status log_there(struct study *);
@@ -134,6 +172,8 @@ void estimator_free(struct study *);
 
 /* results.c */
 gamut_status results_write(struct study *, struct store *, gamut_status);
+
+enum { MOMENTS = 9 };
 
 bool outcome_room(struct study *, struct outcome *); /* makes its arrays */
 void outcome_clear(struct outcome *);

@@ -167,6 +167,31 @@ static void write_flow(const struct tree *node, FILE *file)
   fputc(list ? ']' : '}', file);
 }
 
+char *level_label(const struct study *study, size_t level)
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *file = open_memstream(&text, &size);
+  if (!file)
+    return NULL;
+  for (size_t k = 0; k < study->varies; k++) {
+    const char *path = study->varied[k], *last = path;
+    size_t same = 0;
+    for (const char *dot = strchr(path, '.'); dot; dot = strchr(dot + 1, '.'))
+      last = dot + 1;
+    for (size_t other = 0; other < study->varies; other++) {
+      const size_t length = strlen(study->varied[other]), tail = strlen(last);
+      same += length >= tail && strcmp(study->varied[other] + length - tail, last) == 0;
+    }
+    fprintf(file, "%s%s: ", k ? ", " : "", same > 1 ? path : last);
+    write_flow(study->level[level].override[k].node, file);
+  }
+  if (study->varies == 0)
+    fputs("the scene", file);
+  fclose(file);
+  return text;
+}
+
 char *level_text(const struct study *study, size_t level, size_t varied)
 {
   char *text = NULL;

@@ -1,11 +1,13 @@
 /* study.log: one line a finished run, exact numbers, a sum over the line, forced to the disk.
  *
- *   gamut-study 1 DIGEST
+ *   gamut-study 2 DIGEST
  *   curve QUANTITY COUNT AXIS...
- *   run NUMBER LEVEL REALISATION STEPS POINTS WALL CPU PARAMETERS... VALUES... ok|failed REASON
+ *   nominal LEVEL REALISATION STEPS POINTS WALL CPU PARAMETERS... VALUES... ok|failed REASON
+ *   run NUMBER LEVEL REALISATION ... as of the nominal run
  *
- * each followed by " ~" and eight hex digits. A line that was cut off by the end of the program is
- * taken off when the study goes on. */
+ * VALUES ends, where runs are no sample, in COUNT AXIS... VALUE... of each of the run's own curves.
+ * Each line is followed by " ~" and eight hex digits. A line that was cut off by the end of the
+ * program is taken off when the study goes on. */
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -141,7 +143,32 @@ done:
   return status;
 }
 
-gamut_status log_run(struct study *study, size_t number, const struct outcome *o)
+static void write_own(FILE *file, const struct own_curve *own)
+{
+  fprintf(file, " %zu", own->count);
+  for (size_t k = 0; k < own->count; k++)
+    fprintf(file, " %a", own->at[k]);
+  for (size_t k = 0; k < own->count; k++)
+    fprintf(file, " %a", own->value[k]);
+}
+
+static void write_outcome(const struct study *study, const struct outcome *o, FILE *file)
+{
+  fprintf(file, " %zu %" PRIu64 " %" PRIu64 " %" PRIu64 " %a %a", o->level, o->realisation,
+          o->steps, o->points, o->wall, o->cpu);
+  for (size_t i = 0; i < study->parameters; i++)
+    fprintf(file, " %a", o->parameter[i]);
+  for (size_t i = 0; i < study->values; i++)
+    fprintf(file, " %a", o->value[i]);
+  for (size_t i = 0; i < o->owns; i++)
+    if (study->measured[i].curve)
+      write_own(file, &o->own[i]);
+  fprintf(file, o->reason ? " failed " : " ok");
+  for (const char *c = o->reason ? o->reason : ""; *c; c++)
+    fputc(*c == '\n' || *c == '\r' ? ' ' : *c, file);
+}
+
+static gamut_status log_outcome(struct study *study, const char *head, const struct outcome *o)
 {
   char *text = NULL;
   size_t size = 0;
@@ -150,17 +177,22 @@ gamut_status log_run(struct study *study, size_t number, const struct outcome *o
   FILE *file = open_memstream(&text, &size);
   if (!file)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
-  fprintf(file, "run %zu %zu %" PRIu64 " %" PRIu64 " %" PRIu64 " %a %a", number, o->level,
-          o->realisation, o->steps, o->points, o->wall, o->cpu);
-  for (size_t i = 0; i < study->parameters; i++)
-    fprintf(file, " %a", o->parameter[i]);
-  for (size_t i = 0; i < study->values; i++)
-    fprintf(file, " %a", o->value[i]);
-  fprintf(file, o->reason ? " failed " : " ok");
-  for (const char *c = o->reason ? o->reason : ""; *c; c++)
-    fputc(*c == '\n' || *c == '\r' ? ' ' : *c, file);
+  fputs(head, file);
+  write_outcome(study, o, file);
   fclose(file);
   return append(study, text, size);
+}
+
+gamut_status log_nominal(struct study *study)
+{
+  return log_outcome(study, "nominal", &study->nominal);
+}
+
+gamut_status log_run(struct study *study, size_t number, const struct outcome *o)
+{
+  char head[40];
+  snprintf(head, sizeof head, "run %zu", number);
+  return log_outcome(study, head, o);
 }
 
 static gamut_status open_file(struct study *study)
@@ -184,7 +216,7 @@ gamut_status log_begin(struct study *study, const char *folder)
   gamut_status status;
   char header[64], *text = NULL;
   TRY(find_path(study, folder));
-  snprintf(header, sizeof header, RESULT_LOG_MARK "1 %s", study->digest);
+  snprintf(header, sizeof header, RESULT_LOG_MARK "2 %s", study->digest);
   text = strdup(header);
   if (text)
     text = with_sum(text, strlen(text));
@@ -257,12 +289,25 @@ static bool logged_room(struct study *study, uint64_t number)
   return true;
 }
 
-static bool read_run(struct study *study, char *text)
+static bool read_own(char **text, struct own_curve *own)
 {
-  uint64_t number, level;
-  if (!next_whole(&text, &number) || !logged_room(study, number))
+  uint64_t count;
+  if (!next_whole(text, &count) || count > strlen(*text))
     return false;
-  struct outcome *o = &study->logged[number];
+  own->at = calloc(count + 1, sizeof *own->at);
+  own->value = calloc(count + 1, sizeof *own->value);
+  own->count = count;
+  bool good = own->at && own->value;
+  for (size_t k = 0; good && k < count; k++)
+    good = next_number(text, &own->at[k]);
+  for (size_t k = 0; good && k < count; k++)
+    good = next_number(text, &own->value[k]);
+  return good;
+}
+
+static bool read_outcome(struct study *study, char *text, struct outcome *o)
+{
+  uint64_t level;
   outcome_clear(o);
   bool good = next_whole(&text, &level) && next_whole(&text, &o->realisation) &&
               next_whole(&text, &o->steps) && next_whole(&text, &o->points) &&
@@ -272,12 +317,21 @@ static bool read_run(struct study *study, char *text)
     good = next_number(&text, &o->parameter[i]);
   for (size_t i = 0; good && i < study->values; i++)
     good = next_number(&text, &o->value[i]);
+  for (size_t i = 0; good && i < o->owns; i++)
+    good = !study->measured[i].curve || read_own(&text, &o->own[i]);
   if (good && strncmp(text, " failed ", 8) == 0)
     good = (o->reason = strdup(text + 8)) != NULL;
   else
     good = good && strcmp(text, " ok") == 0;
   o->done = good && !(o->reason && study->options.retry_failed);
   return good;
+}
+
+static bool read_run(struct study *study, char *text)
+{
+  uint64_t number;
+  return next_whole(&text, &number) && logged_room(study, number) &&
+         read_outcome(study, text, &study->logged[number]);
 }
 
 /* Takes off the sum at the end of a line; false if it is not that of the line. */
@@ -304,8 +358,8 @@ static gamut_status read_line(struct study *study, const char *path, char *line,
 {
   if (number == 1) {
     char expected[64];
-    snprintf(expected, sizeof expected, RESULT_LOG_MARK "1 %s", study->digest);
-    if (strncmp(line, RESULT_LOG_MARK "1 ", sizeof RESULT_LOG_MARK + 1) != 0)
+    snprintf(expected, sizeof expected, RESULT_LOG_MARK "2 %s", study->digest);
+    if (strncmp(line, RESULT_LOG_MARK "2 ", sizeof RESULT_LOG_MARK + 1) != 0)
       return refuse(study, path, number, "it is no log of this gamut's studies");
     if (strcmp(line, expected) != 0)
       return refuse(study, path, number, "the scene, the seed or a plugin is another than it was");
@@ -316,6 +370,8 @@ static gamut_status read_line(struct study *study, const char *path, char *line,
     good = read_curve(study, line + 6);
   else if (strncmp(line, "run ", 4) == 0)
     good = read_run(study, line + 4);
+  else if (strncmp(line, "nominal ", 8) == 0)
+    good = read_outcome(study, line + 8, &study->nominal);
   return good ? GAMUT_OK : refuse(study, path, number, "it cannot be understood");
 }
 

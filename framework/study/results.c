@@ -6,8 +6,10 @@
 
 /* Curves of single runs are kept up to this many numbers. */
 enum { KEPT_NUMBERS = 1 << 25 };
+enum { PARTS = 10 }; /* axis, moments and the run at the means of a curve */
 
-/* Columns with the memory behind them. */
+/* Columns with the memory behind them. The run at the means, where there is one, is the first row,
+ * and its number is -1. */
 struct table {
   struct table_column *column;
   size_t columns;
@@ -40,6 +42,13 @@ static const char **text_column(struct table *table, const char *group, const ch
   return text;
 }
 
+/* The outcome that a row is of. */
+static const struct outcome *row_of(const struct study *study, size_t row)
+{
+  const size_t above = study->nominal.done;
+  return row < above ? &study->nominal : &study->outcome[row - above];
+}
+
 static void add_run(struct table *table, const struct study *study)
 {
   double *run = number_column(table, NULL, "run", "1", "number of the run");
@@ -48,10 +57,11 @@ static void add_run(struct table *table, const struct study *study)
       number_column(table, NULL, "realisation", "1", "number of its random fields");
   const char **state = text_column(table, NULL, "status", "ok or failed");
   for (size_t r = 0; !table->failed && r < table->rows; r++) {
-    run[r] = (double)r;
-    level[r] = (double)study->outcome[r].level;
-    realisation[r] = (double)study->outcome[r].realisation;
-    state[r] = study->outcome[r].reason ? "failed" : "ok";
+    const struct outcome *o = row_of(study, r);
+    run[r] = (double)r - study->nominal.done;
+    level[r] = (double)o->level;
+    realisation[r] = (double)o->realisation;
+    state[r] = o->reason ? "failed" : o == &study->nominal ? "nominal" : "ok";
   }
 }
 
@@ -60,7 +70,7 @@ static void add_varied(struct table *table, const struct study *study)
   for (size_t k = 0; k < study->varies; k++) {
     const char **text = text_column(table, "varied", study->varied[k], "as the level has it");
     for (size_t r = 0; !table->failed && r < table->rows; r++)
-      text[r] = keep(table, level_text(study, study->outcome[r].level, k));
+      text[r] = keep(table, level_text(study, row_of(study, r)->level, k));
   }
 }
 
@@ -82,7 +92,7 @@ static void add_numbers(struct table *table, const struct study *study)
     double *value = number_column(table, "parameters", random->path, random->parameter->unit,
                                   random->parameter->doc);
     for (size_t r = 0; value && r < table->rows; r++)
-      value[r] = study->outcome[r].parameter[i];
+      value[r] = row_of(study, r)->parameter[i];
   }
   for (size_t i = 0; i < study->quantities; i++) {
     const struct measured *m = &study->measured[i];
@@ -91,7 +101,7 @@ static void add_numbers(struct table *table, const struct study *study)
     double *value = number_column(table, "quantities", m->quantity->name, m->unit,
                                   m->quantity->measure ? m->quantity->measure->doc : NULL);
     for (size_t r = 0; value && r < table->rows; r++)
-      value[r] = study->outcome[r].value[m->first];
+      value[r] = row_of(study, r)->value[m->first];
   }
 }
 
@@ -100,8 +110,9 @@ static void add_ending(struct table *table, const struct study *study)
   double *steps = number_column(table, NULL, "steps", "1", "time steps");
   const char **reason = text_column(table, NULL, "reason", "why it failed");
   for (size_t r = 0; !table->failed && r < table->rows; r++) {
-    steps[r] = (double)study->outcome[r].steps;
-    reason[r] = study->outcome[r].reason ? study->outcome[r].reason : "";
+    const struct outcome *o = row_of(study, r);
+    steps[r] = (double)o->steps;
+    reason[r] = o->reason ? o->reason : "";
   }
 }
 
@@ -109,9 +120,9 @@ static gamut_status write_table(struct study *study, struct store *store)
 {
   gamut_status status;
   size_t columns = 8 + study->varies + study->parameters + study->quantities;
-  struct table table = {.rows = study->runs};
+  struct table table = {.rows = study->runs + study->nominal.done};
   table.column = calloc(columns, sizeof *table.column);
-  table.memory = calloc(columns + study->varies * study->runs, sizeof *table.memory);
+  table.memory = calloc(columns + study->varies * table.rows, sizeof *table.memory);
   table.failed = !table.column || !table.memory;
   if (!table.failed) {
     add_run(&table, study);
@@ -121,7 +132,7 @@ static gamut_status write_table(struct study *study, struct store *store)
   }
   status = table.failed ? trace_fail(study->trace, GAMUT_INTERNAL, "out of memory")
                         : store_table(store, "study.csv", "study", table.column, table.columns,
-                                      table.rows, study->trace);
+                                      table.rows, study->nominal.done, study->trace);
   for (size_t i = 0; i < table.memories; i++)
     free(table.memory[i]);
   free(table.memory);
@@ -135,7 +146,7 @@ static double *cut_curve(const struct study *study, const struct measured *m, bo
 {
   size_t *kept = calloc(m->count + 1, sizeof *kept);
   size_t runs = with_runs ? study->runs : 0;
-  double *memory = calloc((5 + runs) * m->count + 1, sizeof *memory);
+  double *memory = calloc((PARTS + runs) * m->count + 1, sizeof *memory);
   if (!kept || !memory) {
     free(kept);
     free(memory);
@@ -143,14 +154,22 @@ static double *cut_curve(const struct study *study, const struct measured *m, bo
   }
   size_t n = curve_overlap(study, m, kept);
   const struct gamut_moments *moments = &study->moments;
-  const double *source[] = {m->at, moments->mean + m->first, moments->variance + m->first,
-                            moments->mean_error + m->first, moments->variance_error + m->first};
-  for (size_t s = 0; s < 5; s++)
+  const double *source[PARTS] = {m->at,
+                                 moments->mean + m->first,
+                                 moments->variance + m->first,
+                                 moments->mean_error + m->first,
+                                 moments->variance_error + m->first,
+                                 moments->mean_lower + m->first,
+                                 moments->mean_upper + m->first,
+                                 moments->variance_lower + m->first,
+                                 moments->variance_upper + m->first,
+                                 study->nominal.value + m->first};
+  for (size_t s = 0; s < PARTS; s++)
     for (size_t i = 0; i < n; i++)
       memory[s * n + i] = source[s][kept[i]];
   for (size_t r = 0; r < runs; r++)
     for (size_t i = 0; i < n; i++)
-      memory[(5 + r) * n + i] =
+      memory[(PARTS + r) * n + i] =
           study->outcome[r].reason ? NAN : study->outcome[r].value[m->first + kept[i]];
   *curve = (struct table_curve){.name = m->quantity->name,
                                 .unit = m->unit,
@@ -163,7 +182,10 @@ static double *cut_curve(const struct study *study, const struct measured *m, bo
                                 .variance = memory + 2 * n,
                                 .mean_error = memory + 3 * n,
                                 .variance_error = memory + 4 * n,
-                                .run = memory + 5 * n,
+                                .mean_interval = {memory + 5 * n, memory + 6 * n},
+                                .variance_interval = {memory + 7 * n, memory + 8 * n},
+                                .nominal = memory + 9 * n,
+                                .run = memory + PARTS * n,
                                 .runs = runs};
   free(kept);
   return memory;
@@ -197,13 +219,51 @@ static gamut_status write_curves(struct study *study, struct store *store)
   return status;
 }
 
+/* The curves of runs that are no sample, those of one quantity side by side. */
+static gamut_status write_members(struct study *study, struct store *store)
+{
+  gamut_status status;
+  struct table_member *member = calloc(study->quantities * study->runs + 1, sizeof *member);
+  char **label = calloc(study->runs + 1, sizeof *label);
+  size_t members = 0;
+  for (size_t r = 0; label && r < study->runs; r++)
+    label[r] = level_label(study, study->outcome[r].level);
+  for (size_t i = 0; member && label && i < study->quantities; i++) {
+    const struct measured *m = &study->measured[i];
+    for (size_t r = 0; m->curve && r < study->runs; r++) {
+      const struct outcome *o = &study->outcome[r];
+      if (o->done && !o->reason)
+        member[members++] = (struct table_member){
+            .name = m->quantity->name,
+            .unit = m->unit,
+            .axis = m->axis,
+            .axis_unit = m->axis_unit,
+            .meaning = m->quantity->measure ? m->quantity->measure->doc : NULL,
+            .label = label[r] ? label[r] : "",
+            .run = r,
+            .count = o->own[i].count,
+            .at = o->own[i].at,
+            .value = o->own[i].value};
+    }
+  }
+  status = member && label ? store_members(store, "study/curves", member, members, study->trace)
+                           : trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t r = 0; label && r < study->runs; r++)
+    free(label[r]);
+  free(label);
+  free(member);
+  return status;
+}
+
 gamut_status results_write(struct study *study, struct store *store, gamut_status outcome)
 {
   gamut_status status;
   char *summary = study_summary(study, outcome);
   TRY(store_scene(store, study->scene->tree, study->trace));
   TRY(write_table(study, store));
-  if (outcome == GAMUT_OK)
+  if (study->table)
+    TRY(write_members(study, store));
+  else if (outcome == GAMUT_OK)
     TRY(write_curves(study, store));
   if (summary)
     TRY(store_summary(store, summary, study->trace));

@@ -21,6 +21,37 @@ bool study_wanted(const struct scene *scene)
   return scene->estimator.descriptor != NULL;
 }
 
+static bool has_fields(const struct values *values)
+{
+  for (size_t i = 0; values && i < values->count; i++)
+    if ((values->value[i].random && values->value[i].model) || has_fields(values->value[i].group))
+      return true;
+  return false;
+}
+
+static bool any_field(const struct scene *scene)
+{
+  bool any = has_fields(scene->solver.values);
+  for (size_t i = 0; i < scene->materials; i++) {
+    const struct material *m = &scene->material[i];
+    any = any || has_fields(m->eos.values) || has_fields(m->strength.values) ||
+          has_fields(m->elasticity.values) || has_fields(m->extra);
+  }
+  for (size_t i = 0; i < scene->effects; i++)
+    any = any || has_fields(scene->effect[i].instance.values);
+  return any;
+}
+
+/* A sample of runs that cannot differ is hardly what was meant. */
+static void warn_of_certainty(const struct study *study)
+{
+  const struct tree *node = study->scene->estimator.node;
+  if (!study->table && study->parameters == 0 && !any_field(study->scene))
+    trace_warn_at(study->trace, node ? &node->place : NULL, "uncertainty.estimator",
+                  "{mean:, cv:} in place of a number",
+                  "no parameter of the scene is random: every run will be the same");
+}
+
 gamut_status study_new(struct scene *scene, struct registry *registry, const struct units *units,
                        const struct study_options *options, struct trace *trace,
                        struct study **made)
@@ -47,8 +78,9 @@ gamut_status study_new(struct scene *scene, struct registry *registry, const str
                         "%s has no solver: it is a card for other scenes, not a run", scene->file);
     goto done;
   }
-  TRY(draw_prepare(study));
   TRY(levels_make(study));
+  TRY(draw_prepare(study));
+  warn_of_certainty(study);
   *made = study;
   return GAMUT_OK;
 done:
@@ -64,6 +96,9 @@ void study_free(struct study *study)
   store_close(study->store);
   estimator_free(study);
   levels_free(study);
+  outcome_clear(&study->nominal);
+  worker_clear(&study->probe);
+  free(study->cut);
   for (size_t i = 0; study->measured && i < study->quantities; i++)
     free(study->measured[i].at);
   for (size_t i = 0; i < study->runs; i++)
@@ -93,6 +128,7 @@ static gamut_status recall(struct study *study, size_t number)
   if (!same)
     return trace_fail(study->trace, GAMUT_OUTPUT,
                       "run %zu of the log is not the run that the estimator asks for", number);
+  logged->again = wanted->again;
   outcome_clear(wanted);
   *wanted = *logged;
   *logged = (struct outcome){0};
@@ -128,8 +164,9 @@ static gamut_status list_rows(struct study *study)
       outcome_clear(o);
       return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
     }
-    draw_row(study, batch->point + r * study->parameters, o->parameter);
-    TRY(recall(study, study->runs++));
+    const size_t number = study->runs++;
+    TRY(draw_run(study, number, batch->point + r * study->parameters, o));
+    TRY(recall(study, number));
   }
 done:
   return status;
@@ -207,7 +244,9 @@ static gamut_status judge_failures(struct study *study)
   for (size_t i = 0; i < study->runs && !reason; i++)
     reason = study->outcome[i].reason;
   return trace_fail_at(study->trace, GAMUT_NUMERICS, NULL, NULL,
-                       "the moments of what is left would mislead; study.csv has every reason",
+                       study->table ? "study.csv has every reason"
+                                    : "the moments of what is left would mislead; study.csv has "
+                                      "every reason",
                        "%zu of %zu runs failed, more than the share of %g that "
                        "uncertainty.failures allows; the first: %s",
                        study->failed, study->runs, study->scene->failures, reason);
@@ -231,69 +270,9 @@ static gamut_status run_batches(struct study *study)
   if (study->runs == 0)
     return trace_fail(study->trace, GAMUT_SCENE, "%s asks for no run",
                       study->scene->estimator.descriptor->id);
-  TRY(GUARDED(estimator_of(study), study->ops->report(study->self, &study->moments)));
+  if (!study->table)
+    status = GUARDED(estimator_of(study), study->ops->report(study->self, &study->moments));
 done:
-  return status;
-}
-
-/* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends
- * the program leaves it whole. */
-static gamut_status begin(struct study *study, const char *folder)
-{
-  gamut_status status = GAMUT_OK;
-  bool there = false;
-  if (!folder)
-    return GAMUT_OK;
-  TRY(store_hold(folder, study->trace, &study->store));
-  TRY(log_resume(study, folder, &there));
-  if (there)
-    return GAMUT_OK;
-  if (study->options.resume)
-    trace_note(study->trace, "there is no study in '%s' yet: it begins", folder);
-  TRY(store_begin(study->store,
-                  study->options.force || (study->options.resume && store_is_bare(folder)),
-                  study->trace));
-  TRY(store_scene(study->store, study->scene->tree, study->trace));
-  status = log_begin(study, folder);
-done:
-  if (study->store)
-    store_rest(study->store);
-  return status;
-}
-
-static gamut_status march_nominal(struct study *study, struct gamut_run *run)
-{
-  gamut_status status;
-  if (log_has_axes(study))
-    return GAMUT_OK;
-  status = run_march(run, study->trace);
-  if (status == GAMUT_NUMERICS)
-    trace_note(study->trace, "this was the run at the means, whose curves give the common axes");
-  if (status != GAMUT_OK)
-    return status;
-  TRY(values_axes(study, run));
-  TRY(log_axes(study));
-done:
-  return status;
-}
-
-/* The run at the means tells what is measured, in which unit and on which axis. */
-static gamut_status prepare(struct study *study, const char *folder)
-{
-  gamut_status status;
-  struct gamut_run *run = NULL;
-  const struct gamut_plugin *plugin;
-  const struct run_options options = {
-      .threads = study->threads, .stop = study->options.stop, .seed = study->scene->seed};
-  TRY(run_new(study->scene, study->registry, &options, study->trace, &run));
-  TRY(values_plan(study, run));
-  TRY(registry_open(study->registry, study->scene->estimator.descriptor, study->trace, &plugin));
-  log_digest(study);
-  TRY(begin(study, folder));
-  TRY(march_nominal(study, run));
-  TRY(estimator_new(study));
-done:
-  run_free(run);
   return status;
 }
 
@@ -321,11 +300,11 @@ static void warn_of_sameness(const struct study *study)
     same += alike;
     other += !alike;
   }
-  if (same > 0 && other == 0 && study->values > 0)
+  if (same > 0 && other == 0 && study->values > 0 && study->parameters > 0)
     trace_warn_at(study->trace, NULL, "uncertainty", "{mean:, cv:} in place of a number",
-                  "%zu runs gave the same values to the last bit: %s", study->runs,
-                  study->parameters ? "no quantity depends on what is random"
-                                    : "no parameter of the scene is random");
+                  "%zu runs gave the same values to the last bit: no quantity depends on what is "
+                  "random",
+                  study->runs);
 }
 
 gamut_status study_run(struct study *study, const char *folder, struct trace *trace)
@@ -333,7 +312,7 @@ gamut_status study_run(struct study *study, const char *folder, struct trace *tr
   gamut_status status;
   double begun = now();
   study->trace = trace;
-  TRY(prepare(study, folder));
+  TRY(nominal_prepare(study, folder));
   status = run_batches(study);
   study->wall = now() - begun;
   warn_of_sameness(study);

@@ -16,7 +16,9 @@ bool outcome_room(struct study *study, struct outcome *outcome)
 {
   outcome->parameter = calloc(study->parameters + 1, sizeof(double));
   outcome->value = calloc(study->values + 1, sizeof(double));
-  return outcome->parameter && outcome->value;
+  outcome->owns = study->table ? study->quantities : 0;
+  outcome->own = calloc(outcome->owns + 1, sizeof *outcome->own);
+  return outcome->parameter && outcome->value && outcome->own;
 }
 
 void outcome_clear(struct outcome *outcome)
@@ -24,6 +26,11 @@ void outcome_clear(struct outcome *outcome)
   free(outcome->parameter);
   free(outcome->value);
   free(outcome->reason);
+  for (size_t i = 0; outcome->own && i < outcome->owns; i++) {
+    free(outcome->own[i].at);
+    free(outcome->own[i].value);
+  }
+  free(outcome->own);
   *outcome = (struct outcome){0};
 }
 
@@ -47,8 +54,8 @@ static bool map_parameters(const struct study *study, struct worker *worker)
 }
 
 /* What the scene warns of was told when the levels were checked. */
-static gamut_status take_scene(const struct study *study, struct worker *worker, size_t level,
-                               struct trace *trace)
+gamut_status worker_take(const struct study *study, struct worker *worker, size_t level,
+                         struct trace *trace)
 {
   if (worker->scene && worker->level == level)
     return GAMUT_OK;
@@ -88,7 +95,7 @@ static gamut_status make(const struct study *study, struct worker *worker,
                                       .realisation = outcome->realisation};
 /* Units are read by one thread at a time. */
 #pragma omp critical(gamut_study_scene)
-  status = take_scene(study, worker, outcome->level, trace);
+  status = worker_take(study, worker, outcome->level, trace);
   TRY(status);
   TRY(draw(worker, outcome, trace));
   TRY(run_new(worker->scene, study->registry, &options, trace, run));
@@ -96,13 +103,15 @@ done:
   return status;
 }
 
-static void collect(const struct study *study, const struct gamut_run *run, struct outcome *outcome)
+static gamut_status collect(const struct study *study, const struct gamut_run *run,
+                            struct outcome *outcome)
 {
   const struct run_cost cost = run_cost_of(run);
   outcome->steps = cost.steps;
   outcome->points = cost.points;
-  if (!outcome->reason)
-    values_take(study, run, outcome->value);
+  if (!outcome->reason && values_take(study, run, outcome) != GAMUT_OK)
+    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  return GAMUT_OK;
 }
 
 /* Warnings come from many runs at once: they are counted, the first one is told. */
@@ -119,9 +128,7 @@ static void take_warning(struct study *study, const struct trace *trace)
   }
 }
 
-/* A mistake of the numbers or of a draw is this run's alone; what is wrong with the program, with a
- * plugin or with the machine ends the study. */
-static bool ends_run_only(gamut_status status)
+bool ends_run_only(gamut_status status)
 {
   return status == GAMUT_NUMERICS || status == GAMUT_SCENE;
 }
@@ -147,7 +154,7 @@ gamut_status work_run(struct study *study, struct worker *worker, struct outcome
     trace_fail(study->trace, status, "%s", words ? words : status_text(status));
   }
   if (run && status == GAMUT_OK)
-    collect(study, run, outcome);
+    status = collect(study, run, outcome);
   run_free(run);
   take_warning(study, trace);
   trace_free(trace);

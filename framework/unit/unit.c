@@ -122,6 +122,45 @@ static ut_status refuse_logarithm(const ut_unit *unit, double base, const ut_uni
 static const ut_visitor visitor = {visit_basic, visit_product, visit_galilean, refuse_timestamp,
                                    refuse_logarithm};
 
+/* How much of SI one step of a unit with a zero of its own is: 5/9 for degF. Scales stack, offsets
+ * do not count; of what is no such unit the step is that of its dimension, 1. */
+
+static ut_status step_of_basic(const ut_unit *unit, void *step)
+{
+  (void)unit, (void)step;
+  return UT_SUCCESS;
+}
+
+static ut_status step_of_product(const ut_unit *unit, int count, const ut_unit *const *basic,
+                                 const int *power, void *step)
+{
+  (void)unit, (void)count, (void)basic, (void)power, (void)step;
+  return UT_SUCCESS;
+}
+
+static const ut_visitor step_visitor;
+
+static ut_status step_of_galilean(const ut_unit *unit, double scale, const ut_unit *below,
+                                  double offset, void *step)
+{
+  (void)unit, (void)offset;
+  *(double *)step *= scale;
+  return ut_accept_visitor(below, &step_visitor, step);
+}
+
+static const ut_visitor step_visitor = {step_of_basic, step_of_product, step_of_galilean,
+                                        refuse_timestamp, refuse_logarithm};
+
+/* A difference in SI: of a unit without a zero of its own it is what the number itself is. */
+static double difference_of(const ut_unit *unit, const cv_converter *converter, double number)
+{
+  double step = 1;
+  if (cv_convert_double(converter, 0) == 0 ||
+      ut_accept_visitor(unit, &step_visitor, &step) != UT_SUCCESS)
+    return cv_convert_double(converter, number);
+  return step * number;
+}
+
 /* Reads a unit and the unit of SI of its dimension; both are the caller's to free, also on failure.
  */
 static bool parse(const struct units *units, const char *text, ut_unit **unit, ut_unit **si)
@@ -137,7 +176,7 @@ static bool parse(const struct units *units, const char *text, ut_unit **unit, u
 
 /* UDUNITS calls reciprocal units convertible ("5 s" for "1/s"), so dimensions are compared. */
 static enum unit_result convert(const struct units *units, const char *given, const char *wanted,
-                                double *value)
+                                bool difference, double *value)
 {
   ut_unit *from, *from_si, *to, *to_si;
   cv_converter *converter = NULL;
@@ -149,7 +188,8 @@ static enum unit_result convert(const struct units *units, const char *given, co
   else if (readable)
     converter = ut_get_converter(from, to_si);
   if (converter != NULL) {
-    *value = cv_convert_double(converter, *value);
+    *value =
+        difference ? difference_of(from, converter, *value) : cv_convert_double(converter, *value);
     result = isfinite(*value) ? UNIT_OK : UNIT_NAN;
   }
   cv_free(converter);
@@ -160,8 +200,10 @@ static enum unit_result convert(const struct units *units, const char *given, co
   return result;
 }
 
+enum reading_as { AS_STATED, BARE_IS_SI, AS_DIFFERENCE };
+
 static enum unit_result read_quantity(const struct units *units, const char *text, const char *unit,
-                                      bool bare_is_si, double *value)
+                                      enum reading_as as, double *value)
 {
   const char *rest;
   double number;
@@ -169,11 +211,11 @@ static enum unit_result read_quantity(const struct units *units, const char *tex
   if (result != UNIT_OK)
     return result;
   bool pure = unit[0] == '\0' || (unit[0] == '1' && unit[1] == '\0');
-  if (*rest == '\0' && !pure && !bare_is_si)
+  if (*rest == '\0' && !pure && as != BARE_IS_SI)
     return UNIT_MISSING;
   if (*rest != '\0') {
     locale_t before = enter(units);
-    result = convert(units, rest, unit, &number);
+    result = convert(units, rest, unit, as == AS_DIFFERENCE, &number);
     leave(units, before);
   }
   if (result == UNIT_OK)
@@ -184,20 +226,26 @@ static enum unit_result read_quantity(const struct units *units, const char *tex
 enum unit_result unit_read(const struct units *units, const char *text, const char *unit,
                            double *value)
 {
-  return read_quantity(units, text, unit, false, value);
+  return read_quantity(units, text, unit, AS_STATED, value);
 }
 
 enum unit_result unit_read_bare(const struct units *units, const char *text, const char *unit,
                                 double *value)
 {
-  return read_quantity(units, text, unit, true, value);
+  return read_quantity(units, text, unit, BARE_IS_SI, value);
+}
+
+enum unit_result unit_read_difference(const struct units *units, const char *text, const char *unit,
+                                      double *value)
+{
+  return read_quantity(units, text, unit, AS_DIFFERENCE, value);
 }
 
 bool unit_alike(const struct units *units, const char *one, const char *other)
 {
   double value = 1;
   locale_t before = enter(units);
-  enum unit_result result = convert(units, one, other, &value);
+  enum unit_result result = convert(units, one, other, false, &value);
   leave(units, before);
   return result == UNIT_OK;
 }

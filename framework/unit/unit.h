@@ -32,6 +32,11 @@ enum unit_result unit_read(const struct units *, const char *text, const char *u
 enum unit_result unit_read_bare(const struct units *, const char *text, const char *unit,
                                 double *value);
 
+/* As unit_read, for the difference of two such quantities: a spread, a width. 20 degC are 20 K and
+ * 36 degF are 20 K, since a difference knows nothing of where a scale has its zero. */
+enum unit_result unit_read_difference(const struct units *, const char *text, const char *unit,
+                                      double *value);
+
 /* Whether two units can be read and have the same dimension: unit_alike(u, x, x) tells if x is a
  * unit. */
 bool unit_alike(const struct units *, const char *one, const char *other);

@@ -5,7 +5,7 @@ import subprocess
 import tempfile
 import time
 
-from scenes import PLATE, content, table, write
+from scenes import PLATE, content, runs_of, write
 from tap import GAMUT, done, gamut, report
 
 RUNS = 40
@@ -82,7 +82,7 @@ with tempfile.TemporaryDirectory() as scratch:
     answer = gamut("run", scene, "-o", out, "--resume")
     report(answer.code == 7 and "damaged" in answer.said, "a damaged line: exit 7", answer)
     answer = gamut("run", scene, "-o", out, "--force", "--set", "uncertainty.estimator.runs=2")
-    report(answer.code == 0 and len(table(out)) == 2, "--force begins anew", answer)
+    report(answer.code == 0 and len(runs_of(out)) == 2, "--force begins anew", answer)
 
     scene = write(scratch, "fail.yaml", PLATE + """uncertainty:
   estimator: {model: sweep, over: {solver.step: [20 ns, 1 us]}}

@@ -59,6 +59,11 @@ def table(folder):
         return list(csv.DictReader(file))
 
 
+def runs_of(folder):
+    """Without the run at the means."""
+    return [row for row in table(folder) if row["run"] != "-1"]
+
+
 def column(rows, name):
     return [float(row[name]) for row in rows if row["status"] == "ok"]
 

@@ -7,15 +7,15 @@
 static void test_distributions(void)
 {
   static const struct distribution d[] = {
-      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_UNIFORM, 3, 0.577350269189626, 2, 4, false},
-      {DISTRIBUTION_WEIBULL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_GAMMA, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_BETA, 3, 0.5, 1, 6, false},
-      {DISTRIBUTION_TRIANGULAR, 3, 0.8164965809277260, 1, 5, false},
-      {DISTRIBUTION_NORMAL, 3, 0.5, 4, INFINITY, true},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, 2.5, 3.5, true},
+      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, INFINITY, false, false},
+      {DISTRIBUTION_LOGNORMAL, 3, 0.5, -INFINITY, INFINITY, false, false},
+      {DISTRIBUTION_UNIFORM, 3, 0.577350269189626, 2, 4, false, false},
+      {DISTRIBUTION_WEIBULL, 3, 0.5, -INFINITY, INFINITY, false, false},
+      {DISTRIBUTION_GAMMA, 3, 0.5, -INFINITY, INFINITY, false, false},
+      {DISTRIBUTION_BETA, 3, 0.5, 1, 6, false, false},
+      {DISTRIBUTION_TRIANGULAR, 3, 0.8164965809277260, 1, 5, false, false},
+      {DISTRIBUTION_NORMAL, 3, 0.5, 4, INFINITY, true, false},
+      {DISTRIBUTION_LOGNORMAL, 3, 0.5, 2.5, 3.5, true, false},
   };
   static const char *const names[] = DISTRIBUTION_NAMES;
   for (size_t i = 0; i < sizeof d / sizeof d[0]; i++) {

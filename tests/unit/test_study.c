@@ -19,16 +19,16 @@ static double normal_below(double z)
 static void test_values(void)
 {
   static const struct distribution d[] = {
-      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_UNIFORM, 3, 0.577350269189626, 2, 4, false},
-      {DISTRIBUTION_WEIBULL, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_GAMMA, 3, 0.5, -INFINITY, INFINITY, false},
-      {DISTRIBUTION_BETA, 3, 0.5, 1, 6, false},
-      {DISTRIBUTION_TRIANGULAR, 3, 0.8164965809277260, 1, 5, false},
-      {DISTRIBUTION_NORMAL, 3, 0.5, 4, INFINITY, true},
-      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, 3.2, true},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, 2.5, 3.5, true},
+      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, INFINITY, false, false},
+      {DISTRIBUTION_LOGNORMAL, 3, 0.5, -INFINITY, INFINITY, false, false},
+      {DISTRIBUTION_UNIFORM, 3, 0.577350269189626, 2, 4, false, false},
+      {DISTRIBUTION_WEIBULL, 3, 0.5, -INFINITY, INFINITY, false, false},
+      {DISTRIBUTION_GAMMA, 3, 0.5, -INFINITY, INFINITY, false, false},
+      {DISTRIBUTION_BETA, 3, 0.5, 1, 6, false, false},
+      {DISTRIBUTION_TRIANGULAR, 3, 0.8164965809277260, 1, 5, false, false},
+      {DISTRIBUTION_NORMAL, 3, 0.5, 4, INFINITY, true, false},
+      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, 3.2, true, false},
+      {DISTRIBUTION_LOGNORMAL, 3, 0.5, 2.5, 3.5, true, false},
   };
   static const char *const names[] = DISTRIBUTION_NAMES;
   for (size_t i = 0; i < sizeof d / sizeof d[0]; i++) {
@@ -73,7 +73,7 @@ static void test_draws(void)
 {
   enum { N = 20000 };
   static const struct distribution normal = {DISTRIBUTION_NORMAL, 10,       2,
-                                             -INFINITY,           INFINITY, false};
+                                             -INFINITY,           INFINITY, false, false};
   static const double matrix[9] = {1, 0.5, 0.2, 0.5, 1, -0.3, 0.2, -0.3, 1};
   struct random_parameter random[3] = {
       {.distribution = &normal}, {.distribution = &normal}, {.distribution = &normal}};

@@ -32,6 +32,11 @@ struct gamut_moments {
   double *mean, *variance;             /* of each quantity */
   double *mean_error, *variance_error; /* one standard error, or the estimator's own bound;
                                           infinite where the estimator knows none */
+  /* Where mean and variance lie with a confidence of 95 %. The core sets these to NaN before it
+   * asks: what an estimator does not state is told as unknown. */
+  double *mean_lower, *mean_upper, *variance_lower, *variance_upper;
+  double *heavy_tail; /* kurtosis of the sample, where it is so large that the interval of the
+                         variance is not to be relied on */
 };
 
 #define GAMUT_ESTIMATOR_OPS(B)                                                                     \
@@ -42,6 +47,7 @@ struct gamut_moments {
   void (*destroy)(void *self);                                                                     \
   gamut_status (*ask)(void *self, struct gamut_batch *);                                           \
   gamut_status (*tell)(void *self, const struct gamut_batch *);                                    \
+  /* Required, unless the descriptor says `yields: table`: then runs are no sample. */             \
   gamut_status (*report)(const void *self, struct gamut_moments *);                                \
   /* required: the whole state as bytes; called with null bytes to learn the size. restore makes   \
    * a fresh estimator go on exactly where the saved one stood. */                                 \

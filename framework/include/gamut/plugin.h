@@ -26,7 +26,7 @@
 #include <gamut/status.h>
 
 /* The number of the binary interface. It grows when a plugin built before must be rebuilt. */
-#define GAMUT_ABI 1
+#define GAMUT_ABI 2
 
 /* X(kind in C, name in YAML) */
 #define GAMUT_KIND_LIST(X)                                                                         \

@@ -2,12 +2,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "interval.h"
 #include "monte_carlo.gamut.h"
-
-/* Sums of the powers 1 to 4 of one quantity, about its first value so that no digits are lost. */
-struct sums {
-  double runs, origin, power[4];
-};
 
 struct state {
   struct gamut_stream stream;
@@ -55,24 +51,12 @@ static gamut_status ask(void *self, struct gamut_batch *batch)
   return GAMUT_OK;
 }
 
-static void add(struct sums *sums, double value)
-{
-  if (!isfinite(value))
-    return;
-  if (sums->runs == 0.0)
-    sums->origin = value;
-  double x = value - sums->origin, power = 1.0;
-  for (int k = 0; k < 4; k++)
-    sums->power[k] += power *= x;
-  sums->runs += 1.0;
-}
-
 static gamut_status tell(void *self, const struct gamut_batch *batch)
 {
   struct state *s = self;
   for (size_t r = 0; r < batch->rows; r++)
     for (size_t q = 0; q < s->quantities; q++)
-      add(&s->sums[q], batch->value[r * s->quantities + q]);
+      sums_add(&s->sums[q], batch->value[r * s->quantities + q]);
   return GAMUT_OK;
 }
 
@@ -80,17 +64,19 @@ static gamut_status report(const void *self, struct gamut_moments *moments)
 {
   const struct state *s = self;
   for (size_t q = 0; q < s->quantities; q++) {
-    const struct sums *sums = &s->sums[q];
-    double n = sums->runs, m = sums->power[0] / n;
-    double p2 = sums->power[1] / n, p3 = sums->power[2] / n, p4 = sums->power[3] / n;
-    double spread = fmax(p2 - m * m, 0.0);
-    double fourth = p4 - 4 * m * p3 + 6 * m * m * p2 - 3 * m * m * m * m;
-    double variance = spread * n / (n - 1);
-    moments->mean[q] = sums->origin + m;
-    moments->variance[q] = variance;
-    moments->mean_error[q] = sqrt(variance / n);
+    const struct sample sample = sample_of(&s->sums[q]);
+    const struct interval mean = mean_interval(&sample), variance = variance_interval(&sample);
+    const double n = sample.runs;
+    moments->mean[q] = sample.mean;
+    moments->variance[q] = sample.variance;
+    moments->mean_error[q] = sqrt(sample.variance / n);
     moments->variance_error[q] =
-        sqrt(fmax(fourth - (n - 3) / (n - 1) * variance * variance, 0.0) / n);
+        sqrt(fmax(sample.fourth - (n - 3) / (n - 1) * sample.variance * sample.variance, 0.0) / n);
+    moments->mean_lower[q] = mean.lower;
+    moments->mean_upper[q] = mean.upper;
+    moments->variance_lower[q] = variance.lower;
+    moments->variance_upper[q] = variance.upper;
+    moments->heavy_tail[q] = heavy_tail(&sample);
   }
   return GAMUT_OK;
 }

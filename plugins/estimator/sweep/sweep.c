@@ -4,31 +4,19 @@
 
 #include "sweep.gamut.h"
 
-/* Sums of one quantity, about its first value. */
-struct sums {
-  double runs, origin, sum, square;
-};
-
+/* One run a level; its values are the study's to show. */
 struct state {
-  size_t parameters, quantities;
-  uint64_t asked, wanted;
-  struct sums sums[];
+  uint64_t parameters, asked, wanted;
 };
-
-static size_t bytes_of(const struct state *s)
-{
-  return sizeof *s + s->quantities * sizeof s->sums[0];
-}
 
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values,
                            const struct gamut_study_shape *shape, void **self)
 {
-  struct state *s = calloc(1, sizeof *s + shape->quantities * sizeof s->sums[0]);
+  struct state *s = calloc(1, sizeof *s);
   (void)values; /* the study makes the levels of them */
   if (!s)
     return gamut_fail(run, GAMUT_INTERNAL, "out of memory");
   s->parameters = shape->parameters;
-  s->quantities = shape->quantities;
   s->wanted = shape->levels ? shape->levels : 1;
   *self = s;
   return GAMUT_OK;
@@ -54,52 +42,24 @@ static gamut_status ask(void *self, struct gamut_batch *batch)
 
 static gamut_status tell(void *self, const struct gamut_batch *batch)
 {
-  struct state *s = self;
-  for (size_t r = 0; r < batch->rows; r++)
-    for (size_t q = 0; q < s->quantities; q++) {
-      struct sums *sums = &s->sums[q];
-      double value = batch->value[r * s->quantities + q];
-      if (!isfinite(value))
-        continue;
-      if (sums->runs == 0.0)
-        sums->origin = value;
-      sums->runs += 1.0;
-      sums->sum += value - sums->origin;
-      sums->square += (value - sums->origin) * (value - sums->origin);
-    }
-  return GAMUT_OK;
-}
-
-static gamut_status report(const void *self, struct gamut_moments *moments)
-{
-  const struct state *s = self;
-  for (size_t q = 0; q < s->quantities; q++) {
-    const struct sums *sums = &s->sums[q];
-    double m = sums->sum / sums->runs;
-    moments->mean[q] = sums->origin + m;
-    moments->variance[q] = fmax(sums->square - m * sums->sum, 0.0) / (sums->runs - 1.0);
-    moments->mean_error[q] = INFINITY;
-    moments->variance_error[q] = INFINITY;
-  }
+  (void)self, (void)batch;
   return GAMUT_OK;
 }
 
 static size_t save(const void *self, void *bytes)
 {
-  const struct state *s = self;
   if (bytes)
-    memcpy(bytes, s, bytes_of(s));
-  return bytes_of(s);
+    memcpy(bytes, self, sizeof(struct state));
+  return sizeof(struct state);
 }
 
 static gamut_status restore(void *self, const void *bytes, size_t size)
 {
-  struct state *s = self;
-  if (size != bytes_of(s))
+  if (size != sizeof(struct state))
     return GAMUT_OUTPUT;
-  memcpy(s, bytes, size);
+  memcpy(self, bytes, size);
   return GAMUT_OK;
 }
 
-GAMUT_ESTIMATOR(sweep, .create = create, .destroy = destroy, .ask = ask, .tell = tell,
-                .report = report, .save = save, .restore = restore)
+GAMUT_ESTIMATOR(sweep, .create = create, .destroy = destroy, .ask = ask, .tell = tell, .save = save,
+                .restore = restore)

@@ -1,0 +1,170 @@
+/* Before the first run of a study: what is measured, in which units, on which axes. Where runs are
+ * a sample, the run at the means tells and gives the axes. Where each stands for itself, the scene
+ * below the levels is no member and need not work: the first level that can be planned tells. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "study/inside.h"
+
+/* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends
+ * the program leaves it whole. */
+static gamut_status begin(struct study *study, const char *folder)
+{
+  gamut_status status = GAMUT_OK;
+  bool there = false;
+  if (!folder)
+    return GAMUT_OK;
+  TRY(store_hold(folder, study->trace, &study->store));
+  TRY(log_resume(study, folder, &there));
+  if (there)
+    return GAMUT_OK;
+  if (study->options.resume)
+    trace_note(study->trace, "there is no study in '%s' yet: it begins", folder);
+  TRY(store_begin(study->store,
+                  study->options.force || (study->options.resume && store_is_bare(folder)),
+                  study->trace));
+  TRY(store_scene(study->store, study->scene->tree, study->trace));
+  status = log_begin(study, folder);
+done:
+  if (study->store)
+    store_rest(study->store);
+  return status;
+}
+
+static struct run_options options_of(const struct study *study)
+{
+  return (struct run_options){
+      .threads = study->threads, .stop = study->options.stop, .seed = study->scene->seed};
+}
+
+static gamut_status plan_level(struct study *study, size_t level, struct trace *trace)
+{
+  gamut_status status;
+  struct worker worker = {0};
+  struct gamut_run *run = NULL;
+  const struct run_options options = options_of(study);
+  TRY(worker_take(study, &worker, level, trace));
+  TRY(run_new(worker.scene, study->registry, &options, trace, &run));
+  status = values_plan(study, run);
+done:
+  run_free(run);
+  worker_clear(&worker);
+  return status;
+}
+
+/* Levels that cannot be planned fail later, as runs of their own. */
+static gamut_status plan_first_level(struct study *study)
+{
+  gamut_status status = GAMUT_OK;
+  const size_t levels = study->levels ? study->levels : 1;
+  for (size_t i = 0; i < levels; i++) {
+    struct trace *unheard = trace_new();
+    status = plan_level(study, i, unheard);
+    const char *words = trace_first(unheard, MESSAGE_ERROR);
+    const bool over = status == GAMUT_OK || !ends_run_only(status) || i + 1 == levels;
+    if (over && status != GAMUT_OK)
+      trace_fail(study->trace, status, "%s%s", i ? "no level can be run; the last: " : "",
+                 words ? words : status_text(status));
+    trace_free(unheard);
+    if (over)
+      break;
+  }
+  return status;
+}
+
+static bool any_curve(const struct study *study)
+{
+  for (size_t i = 0; i < study->quantities; i++)
+    if (study->measured[i].curve)
+      return true;
+  return false;
+}
+
+static gamut_status nominal_begin(struct study *study)
+{
+  struct outcome *nominal = &study->nominal;
+  outcome_clear(nominal);
+  if (!outcome_room(study, nominal))
+    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t i = 0; i < study->parameters; i++)
+    nominal->parameter[i] = study->scene->random_parameter[i].distribution->mean;
+  for (size_t i = 0; i < study->values; i++)
+    nominal->value[i] = NAN;
+  return GAMUT_OK;
+}
+
+static gamut_status march_nominal(struct study *study, struct gamut_run *run)
+{
+  gamut_status status, marched;
+  struct outcome *nominal = &study->nominal;
+  if (nominal->done && log_has_axes(study))
+    return GAMUT_OK;
+  struct trace *trace = any_curve(study) ? study->trace : trace_new();
+  marched = run_march(run, trace);
+  if (marched == GAMUT_NUMERICS && trace == study->trace)
+    trace_note(trace, "this was the run at the means, whose curves give the common axes");
+  const char *words = trace_first(trace, MESSAGE_ERROR);
+  if (marched != GAMUT_OK && (marched != GAMUT_NUMERICS || trace == study->trace)) {
+    status = marched;
+    goto done;
+  }
+  if (marched == GAMUT_OK)
+    TRY(values_axes(study, run));
+  TRY(nominal_begin(study));
+  if (marched == GAMUT_OK)
+    TRY(values_take(study, run, nominal));
+  else
+    nominal->reason = strdup(words ? words : status_text(marched));
+  const struct run_cost cost = run_cost_of(run);
+  nominal->steps = cost.steps;
+  nominal->points = cost.points;
+  nominal->wall = cost.wall;
+  nominal->cpu = cost.cpu;
+  nominal->done = true;
+  if (nominal->reason)
+    trace_warn_at(study->trace, NULL, NULL, NULL, "the run at the means failed: %s",
+                  nominal->reason);
+  TRY(log_axes(study));
+  status = log_nominal(study);
+done:
+  if (trace != study->trace)
+    trace_free(trace);
+  return status;
+}
+
+static gamut_status prepare_sample(struct study *study, const char *folder)
+{
+  gamut_status status;
+  struct gamut_run *run = NULL;
+  const struct gamut_plugin *plugin;
+  const struct run_options options = options_of(study);
+  TRY(run_new(study->scene, study->registry, &options, study->trace, &run));
+  TRY(values_plan(study, run));
+  TRY(registry_open(study->registry, study->scene->estimator.descriptor, study->trace, &plugin));
+  log_digest(study);
+  TRY(begin(study, folder));
+  status = march_nominal(study, run);
+done:
+  run_free(run);
+  return status;
+}
+
+static gamut_status prepare_table(struct study *study, const char *folder)
+{
+  gamut_status status;
+  const struct gamut_plugin *plugin;
+  TRY(plan_first_level(study));
+  TRY(registry_open(study->registry, study->scene->estimator.descriptor, study->trace, &plugin));
+  log_digest(study);
+  status = begin(study, folder);
+done:
+  return status;
+}
+
+gamut_status nominal_prepare(struct study *study, const char *folder)
+{
+  const gamut_status status =
+      study->table ? prepare_table(study, folder) : prepare_sample(study, folder);
+  return status == GAMUT_OK ? estimator_new(study) : status;
+}
