@@ -11,6 +11,7 @@
 #include "run/run.h"
 #include "store/file.h"
 #include "store/store.h"
+#include "tree/load.h"
 
 /* Which signal asked for the end of the run; a handler may touch nothing else. */
 static volatile sig_atomic_t interrupted;
@@ -119,7 +120,7 @@ static gamut_status say_finished(struct command *command, const struct run_argum
   if (!arguments->json)
     return GAMUT_OK;
   char *path = file_path(arguments->folder, "summary.json"), piece[4096];
-  FILE *file = path ? fopen(path, "r") : NULL;
+  FILE *file = path ? text_open(path) : NULL;
   for (size_t got; file && (got = fread(piece, 1, sizeof piece, file)) > 0;)
     fwrite(piece, 1, got, stdout);
   if (!file)

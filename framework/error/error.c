@@ -187,6 +187,17 @@ size_t trace_warnings(const struct trace *trace)
   return seen(trace, MESSAGE_WARNING);
 }
 
+bool trace_is_full(const struct trace *trace)
+{
+  if (trace == NULL)
+    return true;
+  pthread_mutex_t *lock = (pthread_mutex_t *)&trace->lock;
+  pthread_mutex_lock(lock);
+  bool full = trace->kept[MESSAGE_ERROR] >= KEPT_MAX;
+  pthread_mutex_unlock(lock);
+  return full;
+}
+
 const char *trace_first(const struct trace *trace, enum message_kind kind)
 {
   for (size_t k = 0; seen(trace, kind) > 0 && k < trace->count; k++)

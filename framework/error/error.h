@@ -41,6 +41,8 @@ void trace_note(struct trace *, const char *format, ...) __attribute__((format(p
 
 size_t trace_errors(const struct trace *);
 size_t trace_warnings(const struct trace *);
+/* Whether another error would only be counted: then nobody needs its words. */
+bool trace_is_full(const struct trace *);
 /* Words of the first error, warning or note; null if there is none. Owned by the trace. */
 const char *trace_first(const struct trace *, enum message_kind);
 gamut_status trace_worst(const struct trace *); /* status of the first error; GAMUT_OK if none */

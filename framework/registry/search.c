@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "registry/inside.h"
+#include "tree/load.h"
 
 #ifndef GAMUT_PLUGIN_FOLDER
 #define GAMUT_PLUGIN_FOLDER ""
@@ -165,7 +166,7 @@ static gamut_status add_folder(const struct search *search, const char *folder)
   char path[PATH_MAX + 32];
   snprintf(path, sizeof path, "%s/plugins.path", folder);
   FILE *file =
-      folder[0] == '/' && (search->in_place || !unsafe(folder, false)) ? fopen(path, "r") : NULL;
+      folder[0] == '/' && (search->in_place || !unsafe(folder, false)) ? text_open(path) : NULL;
   if (!file)
     return search->in_place ? GAMUT_OK : add_root(search, folder, folder);
   gamut_status status = add_pairs(search, folder, file);

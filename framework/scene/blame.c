@@ -55,10 +55,12 @@ static void record(struct reading *reading, const struct tree *node, bool at_key
   char words[WORDS_SIZE], own[PATH_SIZE] = "";
   const struct tree *shown = node ? node : reading->here;
   const struct place *place = NULL;
+  const bool told = !trace_is_full(reading->trace);
   vsnprintf(words, sizeof words, format, list);
   if (shown) {
     place = at_key || !node ? &shown->key_place : &shown->place;
-    tree_path(shown, own, sizeof own);
+    if (told) /* a path counts the items of lists */
+      tree_path(shown, own, sizeof own);
   }
   if (!path && own[0])
     path = own;
@@ -95,6 +97,21 @@ void blame_missing(struct reading *reading, const struct tree *node, const char 
   va_end(list);
 }
 
+void blame_place(struct reading *reading, const struct place *place, const struct tree *node,
+                 const char *expected, const char *format, ...)
+{
+  char words[WORDS_SIZE], path[PATH_SIZE];
+  va_list list;
+  va_start(list, format);
+  vsnprintf(words, sizeof words, format, list);
+  va_end(list);
+  trace_fail_at(reading->trace, GAMUT_SCENE, place, tree_path(node, path, sizeof path), expected,
+                "%s", words);
+  reading->faults++;
+  if (reading->first == GAMUT_OK)
+    reading->first = GAMUT_SCENE;
+}
+
 void warn_value(struct reading *reading, const struct tree *node, const char *expected,
                 const char *format, ...)
 {
@@ -125,9 +142,11 @@ char *list_text(const char *const *name, size_t count, char *buffer, size_t size
   return buffer;
 }
 
-const char *suggest(const char *word, const char *const *known, size_t count, char *buffer,
-                    size_t size)
+const char *suggest(const struct reading *reading, const char *word, const char *const *known,
+                    size_t count, char *buffer, size_t size)
 {
+  if (trace_is_full(reading->trace))
+    return NULL;
   const char *near = nearest(word, known, count);
   if (near) {
     snprintf(buffer, size, "did you mean '%s'?", near);
@@ -138,6 +157,19 @@ const char *suggest(const char *word, const char *const *known, size_t count, ch
   snprintf(buffer, size, "known: ");
   list_text(known, count, buffer + 7, size - 7);
   return buffer;
+}
+
+const char *suggest_key(const struct reading *reading, const char *word, const struct tree *mapping,
+                        char *buffer, size_t size)
+{
+  if (trace_is_full(reading->trace) || !mapping)
+    return NULL;
+  const char **known = scene_take(mapping->children, sizeof *known);
+  for (size_t i = 0; i < mapping->children; i++)
+    known[i] = mapping->child[i]->key;
+  const char *words = suggest(reading, word, known, mapping->children, buffer, size);
+  free(known);
+  return words;
 }
 
 void neighbour_add(struct reading *reading, const char *where, const struct parameter *parameter,
@@ -184,6 +216,10 @@ void blame_unknown(struct reading *reading, const struct tree *child,
                    size_t others, const char *what)
 {
   char expected[WORDS_SIZE], where[128], list[WORDS_SIZE - 64];
+  if (trace_is_full(reading->trace)) {
+    blame_key(reading, child, NULL, "unknown key '%s' in %s", child->key, what);
+    return;
+  }
   const char **known = scene_take(count + others, sizeof *known);
   for (size_t i = 0; i < count + others; i++)
     known[i] = i < others ? also[i] : parameter[i - others].name;
@@ -225,6 +261,23 @@ bool expect_mapping(struct reading *reading, const struct tree *node, const char
               node->kind == TREE_SEQUENCE ? "a list"
               : node->text[0]             ? "a plain value"
                                           : "empty");
+  return false;
+}
+
+bool expect_members(struct reading *reading, const struct tree *node, const char *what,
+                    const char *member, bool needed, size_t most)
+{
+  char expected[96];
+  if (!expect_mapping(reading, node, what))
+    return false;
+  if (node->children == 0 && needed)
+    blame_value(reading, node, member, "%s is empty", what);
+  else if (node->children <= most)
+    return true;
+  else {
+    snprintf(expected, sizeof expected, "at most %zu", most);
+    blame_key(reading, node, expected, "%s has %zu members", what, node->children);
+  }
   return false;
 }
 

@@ -79,35 +79,24 @@ static void material_find(struct reading *reading, const struct tree *node, cons
     return;
   }
   const char *name = text_read(reading, given, "material");
-  const char **known = scene_take(scene->materials, sizeof *known);
-  bool found = false;
-  for (size_t i = 0; i < scene->materials; i++) {
-    known[i] = scene->material[i].name;
-    if (name && strcmp(known[i], name) == 0) {
-      body->material = i;
-      found = true;
-    }
-  }
-  if (name && !found && scene->materials)
-    blame_value(reading, given, suggest(name, known, scene->materials, expected, sizeof expected),
+  const size_t number = name ? tree_number(scene->materials_node, name) : SIZE_MAX;
+  if (number < scene->materials)
+    body->material = number;
+  else if (name && scene->materials)
+    blame_value(reading, given,
+                suggest_key(reading, name, scene->materials_node, expected, sizeof expected),
                 "unknown material '%.60s'", name);
-  free(known);
 }
 
 static void initial_read(struct reading *reading, const struct tree *node, const char *path,
                          const char *what, struct gamut_body *body)
 {
-  /* Other keys have been checked with those of the solver. */
-  const char **keys = scene_take(node->children, sizeof *keys);
-  for (size_t i = 0; i < node->children; i++)
-    keys[i] = node->child[i]->key;
   struct section section = {.parameter = initial_parameters,
                             .count = COUNT_OF(initial_parameters),
                             .node = node,
                             .path = path,
                             .what = what,
-                            .also = keys,
-                            .others = node->children};
+                            .open = true}; /* they are checked with those of the solver */
   struct values *own = section_read(reading, &section);
   body->temperature = own->value[0].present ? own->value[0].real : 298;
   body->has_pressure = own->value[1].present;
@@ -118,7 +107,6 @@ static void initial_read(struct reading *reading, const struct tree *node, const
     blame_key(reading, own->value[2].node, "one of them; the eos gives the other",
               "'pressure' and 'energy' are both given in %s", what);
   values_free(own);
-  free(keys);
 }
 
 static void body_read(struct reading *reading, const struct tree *node, struct gamut_body *body)
@@ -169,7 +157,8 @@ void bodies_read(struct reading *reading, const struct tree *root)
                     "'bodies' is missing");
     return;
   }
-  if (!expect_mapping(reading, node, "'bodies'"))
+  if (!expect_members(reading, node, "'bodies'", "NAME: {material:, shape:, ...}", true,
+                      BODIES_MAX))
     return;
   scene->body = scene_take(node->children, sizeof *scene->body);
   scene->bodies = node->children;

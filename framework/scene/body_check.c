@@ -1,5 +1,6 @@
 /* What bodies must be to each other, to the domain and to the grid. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "scene/reading.h"
@@ -9,18 +10,19 @@ static unsigned axes_of(const struct reading *reading)
   return reading->axes ? reading->axes : 3;
 }
 
+struct extent {
+  double lower[3], upper[3];
+};
+
 /* Common part of the bounds of two bodies; false where there is none. Bodies that touch share none:
  * round-off of their places is allowed for. */
-static bool common_bounds(const struct reading *reading, const struct gamut_body *one,
-                          const struct gamut_body *two, double lower[3], double upper[3])
+static bool common_bounds(const struct reading *reading, const struct extent *one,
+                          const struct extent *two, double lower[3], double upper[3])
 {
-  double low[3], high[3];
-  shape_extent(reading, &one->shape, lower, upper);
-  shape_extent(reading, &two->shape, low, high);
   for (unsigned k = 0; k < axes_of(reading); k++) {
-    double scale = fmin(upper[k] - lower[k], high[k] - low[k]);
-    lower[k] = fmax(lower[k], low[k]);
-    upper[k] = fmin(upper[k], high[k]);
+    double scale = fmin(one->upper[k] - one->lower[k], two->upper[k] - two->lower[k]);
+    lower[k] = fmax(one->lower[k], two->lower[k]);
+    upper[k] = fmin(one->upper[k], two->upper[k]);
     if (!(upper[k] - lower[k] > 1e-9 * scale))
       return false;
   }
@@ -41,14 +43,12 @@ static bool points_overlap(const struct shape *points, const struct shape *other
 
 /* Boxes overlap where their bounds do. Other shapes are tried on a lattice of up to 10^5 points. */
 static bool overlap(const struct reading *reading, const struct gamut_body *one,
-                    const struct gamut_body *two, double where[3])
+                    const struct gamut_body *two, double lower[3], double upper[3], double where[3])
 {
-  double lower[3], upper[3], step[3] = {0};
+  double step[3] = {0};
   static const size_t fineness[] = {0, 20000, 250, 44};
   unsigned axes = axes_of(reading);
   size_t points = 1, n = fineness[axes];
-  if (!common_bounds(reading, one, two, lower, upper))
-    return false;
   bool boxes = one->shape.kind == SHAPE_BOX && two->shape.kind == SHAPE_BOX;
   double margin = INFINITY;
   for (unsigned k = 0; k < 3; k++) {
@@ -65,12 +65,17 @@ static bool overlap(const struct reading *reading, const struct gamut_body *one,
     return points_overlap(&one->shape, &two->shape, where);
   if (two->shape.kind == SHAPE_POINTS)
     return points_overlap(&two->shape, &one->shape, where);
-  for (size_t i = 0; i < points; i++) {
+  for (size_t i = 0; i < points;) {
     size_t rest = i;
     for (unsigned k = 0; k < axes; k++, rest /= n)
       where[k] = lower[k] + step[k] * ((double)(rest % n) + 0.5);
-    if (shape_inside(&one->shape, where, margin) && shape_inside(&two->shape, where, margin))
+    const double depth = fmin(shape_depth(&one->shape, where), shape_depth(&two->shape, where));
+    if (depth >= margin)
       return true;
+    /* Depth changes by no more than the way, so that what is too near along x is passed over. */
+    const double far = (margin - depth) / step[0] * (1 - 1e-9);
+    const size_t row = n - i % n;
+    i += far < 1 ? 1 : far < (double)row ? (size_t)far : row;
   }
   return false;
 }
@@ -83,13 +88,18 @@ static const struct tree *shape_node(const struct gamut_body *body)
 static void overlaps_check(struct reading *reading)
 {
   const struct scene *scene = reading->scene;
+  struct extent *extent = scene_take(scene->bodies, sizeof *extent);
+  for (size_t i = 0; i < scene->bodies; i++)
+    if (scene->body[i].shape.kind != SHAPE_NONE)
+      shape_extent(reading, &scene->body[i].shape, extent[i].lower, extent[i].upper);
   for (size_t i = 0; i < scene->bodies; i++)
     for (size_t k = i + 1; k < scene->bodies; k++) {
       const struct gamut_body *one = &scene->body[i], *two = &scene->body[k];
-      double x[3];
+      double x[3], lower[3], upper[3];
       char where[128] = "";
       if (one->shape.kind == SHAPE_NONE || two->shape.kind == SHAPE_NONE ||
-          !overlap(reading, one, two, x))
+          !common_bounds(reading, &extent[i], &extent[k], lower, upper) ||
+          !overlap(reading, one, two, lower, upper, x))
         continue;
       size_t length = 0;
       for (unsigned c = 0; c < axes_of(reading); c++)
@@ -98,6 +108,7 @@ static void overlaps_check(struct reading *reading)
       blame_key(reading, shape_node(two), "bodies may touch, not overlap",
                 "bodies '%s' and '%s' overlap, for example at (%s) m", one->name, two->name, where);
     }
+  free(extent);
 }
 
 static void domain_check(struct reading *reading, const struct gamut_body *body)

@@ -3,6 +3,8 @@
 
 #include "scene/reading.h"
 
+enum { NAMES_MAX = 10000 };
+
 static const char *const own_keys[] = {"enabled", "bodies", "materials"};
 
 static void enabled_read(struct reading *reading, const struct tree *node, struct effect *effect)
@@ -23,47 +25,45 @@ static void enabled_read(struct reading *reading, const struct tree *node, struc
   blame_value(reading, given, "auto, on or off", "'enabled' cannot be '%.40s'", text);
 }
 
-/* Names of a list that must be bodies (or materials) of the scene. */
-static const char **select_read(struct reading *reading, const struct tree *node,
-                                const char *const *known, size_t count, const char *what,
-                                size_t *selected)
+/* Marks which of the names of `all` (a mapping of the scene) the list names. */
+static bool *select_read(struct reading *reading, const struct tree *node, const struct tree *all,
+                         const char *what)
 {
   char expected[WORDS_SIZE];
-  const char **name = names_read(reading, node, node->key, selected);
-  for (size_t i = 0; i < *selected && count; i++)
-    if (!has_name(known, count, name[i])) {
-      const struct tree *item = node;
-      for (size_t k = 0; k < node->children; k++)
-        if (strcmp(node->child[k]->text, name[i]) == 0)
-          item = node->child[k];
-      blame_value(reading, item, suggest(name[i], known, count, expected, sizeof expected),
-                  "unknown %s '%.60s'", what, name[i]);
-    }
-  return name;
+  const size_t count = all ? all->children : 0;
+  struct names names = names_read(reading, node, node->key, NAMES_MAX);
+  bool *selected = scene_take(count, sizeof *selected);
+  if (node->kind == TREE_SEQUENCE && node->children == 0)
+    blame_value(reading, node, "leave it out to mean all of them", "'%s' is an empty list",
+                node->key);
+  for (size_t i = 0; i < names.count && count; i++) {
+    const size_t number = tree_number(all, names.name[i]);
+    if (number < count)
+      selected[number] = true;
+    else
+      blame_value(reading, names.node[i],
+                  suggest_key(reading, names.name[i], all, expected, sizeof expected),
+                  "unknown %s '%.60s'", what, names.name[i]);
+  }
+  return selected;
 }
 
-static void targets_read(struct reading *reading, const struct tree *node, struct effect *effect)
+static void targets_read(struct reading *reading, const struct tree *root, const struct tree *node,
+                         struct effect *effect)
 {
   const struct scene *scene = reading->scene;
   const struct tree *bodies = tree_get(node, "bodies"), *materials = tree_get(node, "materials");
-  const char **body = NULL, **material = NULL;
-  size_t body_count = 0, material_count = 0;
-  const char **known = scene_take(scene->materials, sizeof *known);
-  for (size_t i = 0; i < scene->materials; i++)
-    known[i] = scene->material[i].name;
+  bool *body = NULL, *material = NULL;
   if (bodies)
-    body = select_read(reading, bodies, reading->body, reading->bodies, "body", &body_count);
+    body = select_read(reading, bodies, tree_get(root, "bodies"), "body");
   if (materials)
-    material =
-        select_read(reading, materials, known, scene->materials, "material", &material_count);
-  for (size_t b = 0; b < scene->bodies; b++) {
-    const struct gamut_body *one = &scene->body[b];
+    material = select_read(reading, materials, tree_get(root, "materials"), "material");
+  for (size_t b = 0; b < scene->bodies; b++)
     effect->on_body[b] =
-        (!body || has_name(body, body_count, one->name)) &&
-        (!material || (scene->materials > one->material &&
-                       has_name(material, material_count, scene->material[one->material].name)));
-  }
-  free(known);
+        (!body || body[b]) && (!material || (scene->materials > scene->body[b].material &&
+                                             material[scene->body[b].material]));
+  free(body);
+  free(material);
 }
 
 static bool provided(const struct scene *scene, const char *name)
@@ -95,10 +95,11 @@ void effects_read(struct reading *reading, const struct tree *root)
 {
   struct scene *scene = reading->scene;
   const struct tree *node = tree_get(root, "effects");
-  if (!node || !expect_mapping(reading, node, "'effects'"))
+  if (!node || !expect_members(reading, node, "'effects'", NULL, false, EFFECTS_MAX))
     return;
   scene->effect = scene_take(node->children, sizeof *scene->effect);
   scene->effects = node->children;
+  scene->effects_node = node;
   for (size_t i = 0; i < node->children; i++) {
     struct effect *effect = &scene->effect[i];
     const struct tree *child = node->child[i];
@@ -107,7 +108,7 @@ void effects_read(struct reading *reading, const struct tree *root)
     instance_read(reading, GAMUT_KIND_EFFECT, child->key, child, own_keys, COUNT_OF(own_keys),
                   &effect->instance);
     enabled_read(reading, child, effect);
-    targets_read(reading, child, effect);
+    targets_read(reading, root, child, effect);
   }
   for (size_t i = 0; i < scene->effects; i++)
     requirements_check(reading, &scene->effect[i]);

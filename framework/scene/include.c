@@ -5,33 +5,16 @@
 
 #include "scene/reading.h"
 
-enum { INCLUDE_DEPTH_MAX = 16, ANCESTORS_MAX = 32 };
+enum { INCLUDE_DEPTH_MAX = 16, INCLUDES_MAX = 100, ANCESTORS_MAX = 32 };
 
 /* The files that are being read, outermost first. */
 struct chain {
   const char *shown[INCLUDE_DEPTH_MAX];
   char *real[INCLUDE_DEPTH_MAX];
   size_t depth;
+  size_t files;  /* read so far, each as often as it is asked for */
+  size_t values; /* in them all; at most as many as one file may have */
 };
-
-static void drop_child(struct tree *node, size_t index)
-{
-  struct tree *child = node->child[index];
-  child->parent = NULL;
-  tree_free(child);
-  node->children--;
-  memmove(node->child + index, node->child + index + 1,
-          (node->children - index) * sizeof *node->child);
-}
-
-static void drop_key(struct tree *node, const char *key)
-{
-  for (size_t i = 0; i < node->children; i++)
-    if (strcmp(node->child[i]->key, key) == 0) {
-      drop_child(node, i);
-      return;
-    }
-}
 
 /* Where a key `model` names a plugin: solver, materials.*.*, effects.*, uncertainty.estimator.
  * Names may hold dots, so that steps are counted, not dots. */
@@ -55,8 +38,7 @@ static void forget_other_models(struct tree *base, const struct tree *over)
     return;
   const struct tree *old = tree_get(base, "model"), *new = tree_get(over, "model");
   if (old && new &&strcmp(old->text, new->text) != 0 && names_plugin(base))
-    while (base->children)
-      drop_child(base, base->children - 1);
+    tree_clear(base);
   for (size_t i = 0; i < base->children; i++) {
     const struct tree *child = tree_get(over, base->child[i]->key);
     if (child)
@@ -138,6 +120,14 @@ static bool locate(const char *from, const char *name, char *path, size_t size)
   return locate_data(name, path, size);
 }
 
+static size_t node_count(const struct tree *tree)
+{
+  size_t count = 1;
+  for (size_t i = 0; i < tree->children; i++)
+    count += node_count(tree->child[i]);
+  return count;
+}
+
 static const char *chain_text(const struct chain *chain, const char *last, char *buffer,
                               size_t size)
 {
@@ -193,8 +183,10 @@ static bool includes_read(struct reading *reading, struct chain *chain, struct t
     return true;
   size_t items = include->kind == TREE_SEQUENCE ? include->children : 1;
   for (size_t i = 0; i < items; i++) {
+    one = NULL;
     if (!item_read(reading, include->kind == TREE_SEQUENCE ? include->child[i] : include, chain,
                    &one)) {
+      tree_free(one);
       fine = false;
     } else if (!base) {
       base = one;
@@ -203,7 +195,7 @@ static bool includes_read(struct reading *reading, struct chain *chain, struct t
       tree_merge(base, one);
     }
   }
-  drop_key(*root, "include");
+  tree_drop(tree_get(*root, "include"));
   if (base) {
     forget_other_models(base, *root);
     tree_merge(base, *root);
@@ -228,12 +220,24 @@ static bool is_circular(struct reading *reading, const char *file, const char *r
   return again || chain->depth == INCLUDE_DEPTH_MAX;
 }
 
+/* Files that each include the next several times are many, and deep in no way. */
+static bool is_one_too_many(struct reading *reading, const struct tree *item, struct chain *chain)
+{
+  if (chain->files > INCLUDES_MAX)
+    return true; /* told once */
+  if (chain->files++ < INCLUDES_MAX)
+    return false;
+  blame_value(reading, item, "do files include each other several times?",
+              "more than %d files are read for one scene", INCLUDES_MAX);
+  return true;
+}
+
 static bool file_read(struct reading *reading, const char *file, const struct tree *item,
                       struct chain *chain, struct tree **root)
 {
   *root = NULL;
   char *real = realpath(file, NULL);
-  if (is_circular(reading, file, real, item, chain)) {
+  if (is_one_too_many(reading, item, chain) || is_circular(reading, file, real, item, chain)) {
     free(real);
     return false;
   }
@@ -241,6 +245,13 @@ static bool file_read(struct reading *reading, const char *file, const struct tr
   if (status != GAMUT_OK) {
     reading->faults++;
     reading->first = reading->first ? reading->first : status;
+    free(real);
+    return false;
+  }
+  chain->values += node_count(*root);
+  if (chain->values > TREE_NODES_MAX) {
+    blame_value(reading, item ? item : *root, NULL, "more than %d values, with all includes read",
+                TREE_NODES_MAX);
     free(real);
     return false;
   }
@@ -279,16 +290,15 @@ static void override_put(struct reading *reading, struct tree *root,
   else if (!(value = tree_copy(override->node)))
     status = trace_fail(reading->trace, GAMUT_INTERNAL, "out of memory");
   if (status == GAMUT_OK && belongs_to_file(override->path))
-    status = trace_fail_at(reading->trace, GAMUT_USAGE, &value->place, override->path,
-                           "write it in a scene of its own", "'%s' belongs to a file",
-                           override->path);
+    status =
+        trace_fail_at(reading->trace, GAMUT_USAGE, &value->place, override->path,
+                      "write it in a scene of its own", "'%s' belongs to a file", override->path);
   if (status == GAMUT_OK && sets_model(override)) {
     snprintf(parent, sizeof parent, "%.*s", (int)strlen(override->path) - 6, override->path);
     struct tree *node = tree_at(root, parent);
     const struct tree *old = tree_get(node, "model");
     if (old && names_plugin(node) && strcmp(old->text, value->text) != 0)
-      while (node->children)
-        drop_child(node, node->children - 1);
+      tree_clear(node);
   }
   if (status == GAMUT_OK)
     status = tree_put(root, override->path, value, reading->trace);

@@ -113,7 +113,8 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
                             known,
                             others + 1,
                             false,
-                            seen_by_kernels(descriptor)};
+                            seen_by_kernels(descriptor),
+                            false};
   instance->values = section_read(reading, &section);
   reading->here = here;
   free(known);

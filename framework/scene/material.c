@@ -203,23 +203,18 @@ static void material_read(struct reading *reading, const struct tree *node,
   material->extra = section_read(reading, &section);
   reading->neighbours = 0;
 
-  /* Other keys have been checked above; density is read like any parameter. */
-  const char **keys = scene_take(node->children, sizeof *keys);
-  for (size_t i = 0; i < node->children; i++)
-    keys[i] = node->child[i]->key;
+  /* Density is read like any parameter. */
   section = (struct section){.parameter = density_parameter,
                              .count = 1,
                              .node = node,
                              .path = path,
                              .what = what,
-                             .also = keys,
-                             .others = node->children};
+                             .open = true};
   struct values *own = section_read(reading, &section);
   material->density = own->value[0].real;
   material->density_random = own->value[0].random;
   own->value[0].random = NULL;
   values_free(own);
-  free(keys);
 
   source_check(reading, tree_get(node, "source"));
   parts_read(reading, node, material, extra, extras);
@@ -238,11 +233,13 @@ void materials_read(struct reading *reading, const struct tree *root)
                     "'materials' is missing");
     return;
   }
-  if (!expect_mapping(reading, node, "'materials'"))
+  if (!expect_members(reading, node, "'materials'", "NAME: {density:, eos:, ...}", true,
+                      MATERIALS_MAX))
     return;
   const struct parameter *extra = extra_parameters(reading, &extras);
   scene->material = scene_take(node->children, sizeof *scene->material);
   scene->materials = node->children;
+  scene->materials_node = node;
   for (size_t i = 0; i < node->children; i++)
     material_read(reading, node->child[i], extra, extras, &scene->material[i]);
 }

@@ -3,6 +3,8 @@
 
 #include "scene/reading.h"
 
+enum { FIELDS_MAX = 1000 };
+
 static void frames_read(struct reading *reading, const struct tree *node)
 {
   struct scene *scene = reading->scene;
@@ -62,6 +64,10 @@ static void blame_field(struct reading *reading, const struct tree *node)
 {
   enum { MEASURES = 256 };
   const struct scene *scene = reading->scene;
+  if (trace_is_full(reading->trace)) {
+    blame_value(reading, node, NULL, "unknown field '%.60s'", node->text);
+    return;
+  }
   char expected[WORDS_SIZE];
   size_t fields, count = 0;
   const char **field = field_names(reading, false, &fields);
@@ -73,7 +79,7 @@ static void blame_field(struct reading *reading, const struct tree *node)
     count = add_measures(scene->effect[i].instance.descriptor, name, count, MEASURES);
   for (size_t i = 0; i < fields; i++)
     name[count++] = field[i];
-  blame_value(reading, node, suggest(node->text, name, count, expected, sizeof expected),
+  blame_value(reading, node, suggest(reading, node->text, name, count, expected, sizeof expected),
               "unknown field '%.60s'", node->text);
   free(field);
   free(name);
@@ -111,13 +117,10 @@ void outputs_read(struct reading *reading, const struct tree *root)
   const struct tree *fields = tree_get(node, "fields");
   if (!fields)
     return;
-  scene->output_field = names_read(reading, fields, "fields", &scene->output_fields);
-  for (size_t i = 0; i < scene->output_fields; i++) {
-    const struct tree *item = fields;
-    for (size_t k = 0; k < fields->children; k++)
-      if (strcmp(fields->child[k]->text, scene->output_field[i]) == 0)
-        item = fields->child[k];
-    if (!known_output(reading, scene->output_field[i]))
-      blame_field(reading, item);
-  }
+  struct names names = names_read(reading, fields, "fields", FIELDS_MAX);
+  scene->output_field = names.name;
+  scene->output_fields = names.count;
+  for (size_t i = 0; i < names.count; i++)
+    if (!known_output(reading, names.name[i]))
+      blame_field(reading, names.node[i]);
 }

@@ -46,6 +46,10 @@ static void blame_measure(struct reading *reading, const struct tree *node,
 {
   char expected[WORDS_SIZE];
   size_t names = 0, known_fields = 0;
+  if (trace_is_full(reading->trace)) {
+    blame_value(reading, node, NULL, "unknown measure '%.60s'", node->text);
+    return;
+  }
   const char **field = fields ? field_names(reading, true, &known_fields) : NULL;
   size_t all = known_fields;
   for (size_t i = 0; i < count; i++)
@@ -58,7 +62,7 @@ static void blame_measure(struct reading *reading, const struct tree *node,
   for (size_t i = 0; i < known_fields; i++)
     if (!has_name(name, names, field[i]))
       name[names++] = field[i];
-  blame_value(reading, node, suggest(node->text, name, names, expected, sizeof expected),
+  blame_value(reading, node, suggest(reading, node->text, name, names, expected, sizeof expected),
               "unknown measure '%.60s'", node->text);
   free(name);
   free(field);
@@ -85,14 +89,11 @@ static bool effect_named(struct reading *reading, const struct tree *node, const
   if (!node)
     return true;
   const char *text = text_read(reading, node, "effect");
-  const char **known = scene_take(scene->effects, sizeof *known);
-  for (size_t i = 0; i < scene->effects; i++)
-    known[i] = scene->effect[i].instance.name;
-  bool found = text && has_name(known, scene->effects, text);
+  bool found = text && tree_number(scene->effects_node, text) < scene->effects;
   if (text && !found)
-    blame_value(reading, node, suggest(text, known, scene->effects, expected, sizeof expected),
+    blame_value(reading, node,
+                suggest_key(reading, text, scene->effects_node, expected, sizeof expected),
                 "unknown effect '%.60s'", text);
-  free(known);
   *effect = text;
   return found;
 }
@@ -196,6 +197,18 @@ static void put_tracers(struct reading *reading, const struct tree *all,
   }
 }
 
+static void room_for(struct scene *scene, size_t *room, size_t more)
+{
+  if (scene->quantities + more <= *room)
+    return;
+  *room = 2 * (scene->quantities + more);
+  struct quantity *grown = scene_take(*room, sizeof *grown);
+  if (scene->quantities > 0)
+    memcpy(grown, scene->quantity, scene->quantities * sizeof *grown);
+  free(scene->quantity);
+  scene->quantity = grown;
+}
+
 void quantities_read(struct reading *reading, const struct tree *root)
 {
   struct scene *scene = reading->scene;
@@ -207,12 +220,7 @@ void quantities_read(struct reading *reading, const struct tree *root)
     struct places places = {0};
     struct quantity quantity = {.name = node->child[i]->key, .body = -1, .node = node->child[i]};
     quantity_read(reading, node->child[i], &quantity, &places);
-    room = scene->quantities + (places.count > 0 ? places.count : 1);
-    struct quantity *more = scene_take(room, sizeof *more);
-    if (scene->quantities > 0)
-      memcpy(more, scene->quantity, scene->quantities * sizeof *more);
-    free(scene->quantity);
-    scene->quantity = more;
+    room_for(scene, &room, places.count > 0 ? places.count : 1);
     if (places.count > 0)
       put_tracers(reading, node, &quantity, &places);
     else

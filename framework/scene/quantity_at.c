@@ -15,14 +15,14 @@ static bool body_find(struct reading *reading, const struct tree *node, int *bod
 {
   char expected[WORDS_SIZE];
   const char *name = text_read(reading, node, "body");
-  for (size_t i = 0; name && i < reading->bodies; i++)
-    if (strcmp(reading->body[i], name) == 0) {
-      *body = (int)i;
-      return true;
-    }
+  const size_t number = name ? tree_number(reading->bodies_node, name) : SIZE_MAX;
+  if (number < reading->bodies) {
+    *body = (int)number;
+    return true;
+  }
   if (name && reading->body)
     blame_value(reading, node,
-                suggest(name, reading->body, reading->bodies, expected, sizeof expected),
+                suggest_key(reading, name, reading->bodies_node, expected, sizeof expected),
                 "unknown body '%.60s'", name);
   return false;
 }

@@ -32,6 +32,7 @@ static void body_names(struct reading *reading, const struct tree *root)
     name[i] = bodies->child[i]->key;
   reading->body = name;
   reading->bodies = bodies->children;
+  reading->bodies_node = bodies;
 }
 
 static void sections_read(struct reading *reading, struct scene *scene)

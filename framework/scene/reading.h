@@ -6,6 +6,8 @@
 
 #define COUNT_OF(array) (sizeof(array) / sizeof((array)[0]))
 enum { PATH_SIZE = 512, WORDS_SIZE = 768 };
+/* What is planned for each against each other: far above any use, and still planned in a moment. */
+enum { MATERIALS_MAX = 1000, BODIES_MAX = 1000, EFFECTS_MAX = 1000 };
 
 /* Memory that lives as long as the scene; freed in one go. */
 struct scene_piece {
@@ -40,7 +42,8 @@ struct reading {
   const struct tree *here; /* stands in where a value has no node */
   const char *const *body; /* names of the bodies; null: not checked */
   size_t bodies;
-  unsigned axes; /* of the geometry; 0: the solver has none */
+  const struct tree *bodies_node; /* their names as keys */
+  unsigned axes;                  /* of the geometry; 0: the solver has none */
   bool axisymmetric;
   bool scaled; /* of the material that is read */
   bool lost;   /* no solver or geometry was understood: axes are unknown */
@@ -68,11 +71,19 @@ void blame_key(struct reading *, const struct tree *, const char *expected, cons
 /* The same with a path of its own, for what is not there. */
 void blame_missing(struct reading *, const struct tree *, const char *path, const char *expected,
                    const char *format, ...) __attribute__((format(printf, 5, 6)));
+/* At a place in a file that is no tree, which `node` names. */
+void blame_place(struct reading *, const struct place *, const struct tree *node,
+                 const char *expected, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
 void warn_value(struct reading *, const struct tree *, const char *expected, const char *format,
                 ...) __attribute__((format(printf, 4, 5)));
-/* "did you mean 'x'?" where one is near, else "known are ..."; null if there is none. */
-const char *suggest(const char *word, const char *const *known, size_t count, char *buffer,
-                    size_t size);
+/* "did you mean 'x'?" where one is near, else "known are ..."; null if there is none, or if nobody
+ * will see it. */
+const char *suggest(const struct reading *, const char *word, const char *const *known,
+                    size_t count, char *buffer, size_t size);
+/* The same of the keys of a mapping; null for none. */
+const char *suggest_key(const struct reading *, const char *word, const struct tree *mapping,
+                        char *buffer, size_t size);
 /* A list with commas: "a, b, c". Returns buffer. */
 char *list_text(const char *const *name, size_t count, char *buffer, size_t size);
 /* A key that nobody knows here; suggests the nearest, also of groups below and of neighbours. */
@@ -85,6 +96,10 @@ void neighbour_add(struct reading *, const char *where, const struct parameter *
                    const char *const *key, size_t keys);
 /* Whether a node is a mapping; else a fault that says what it should be. */
 bool expect_mapping(struct reading *, const struct tree *, const char *what);
+/* The same of one that holds members by name, `member` written as one of them: not empty if one is
+ * `needed`, and not beyond `most`. */
+bool expect_members(struct reading *, const struct tree *, const char *what, const char *member,
+                    bool needed, size_t most);
 /* Keys of a mapping against fixed ones; unknown ones are faults. */
 void expect_keys(struct reading *, const struct tree *, const char *const *known, size_t count,
                  const char *what);
@@ -105,9 +120,18 @@ bool interval_read(struct reading *, const struct tree *, const char *name, cons
 double *vector_read(struct reading *, const struct tree *, const char *name, const char *unit,
                     size_t least, size_t most, size_t *count);
 bool table_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
-/* The rows of the CSV file that the node names, beside the file in which it does. */
-bool table_file_read(struct reading *, const struct parameter *, const struct tree *name,
-                     struct value *);
+/* table_file.c: the rows of the CSV file that the node names, beside the file in which it does.
+ * Null with a fault. */
+struct table_file;
+struct table_file *table_file_read(struct reading *, const struct parameter *,
+                                   const struct tree *name);
+/* The numbers, row by row; the array is the caller's. */
+double *table_file_numbers(struct table_file *, size_t *count);
+/* A fault at the place of a row; and its line. */
+void table_file_blame(struct table_file *, size_t row, const char *expected, const char *format,
+                      ...) __attribute__((format(printf, 4, 5)));
+size_t table_file_line(const struct table_file *, size_t row);
+void table_file_free(struct table_file *); /* accepts null */
 bool levels_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
 bool plugin_read(struct reading *, enum gamut_kind, const struct tree *, struct value *);
 bool random_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
@@ -121,8 +145,13 @@ void usual_check(struct reading *, const struct parameter *, const struct range 
 void unit_words_check(struct reading *, const struct tree *);
 /* A scalar's text; null with a fault. */
 const char *text_read(struct reading *, const struct tree *, const char *name);
-/* A list of names, or one; kept with the scene. */
-const char **names_read(struct reading *, const struct tree *, const char *name, size_t *count);
+/* A list of names, or one, each with its node; kept with the scene. */
+struct names {
+  const char **name;
+  const struct tree **node;
+  size_t count;
+};
+struct names names_read(struct reading *, const struct tree *, const char *name, size_t most);
 
 /* Values of a section. */
 
@@ -135,8 +164,9 @@ struct section {
   const char *what; /* "strength 'johnson_cook'" */
   const char *const *also;
   size_t others;
-  bool lenient; /* what is required may be absent */
+  bool lenient;   /* what is required may be absent */
   bool pointwise; /* kernels see its numbers, so they may differ from point to point */
+  bool open;      /* its other keys are looked at elsewhere */
 };
 /* Never null. */
 struct values *section_read(struct reading *, const struct section *);
@@ -200,6 +230,12 @@ bool shape_points_read(struct reading *, const struct tree *, struct shape *);
 /* A length; it may be 0 where `least` is. */
 bool length_read(struct reading *, const struct tree *mapping, const char *key, bool required,
                  bool zero, double *length);
+
+/* shape_index.c: for a union or points, once they are complete. */
+void shape_index_make(struct reading *, struct shape *);
+double shape_index_depth(const struct shape *, const double x[3]);
+/* Whether no two parts of a union have bounds with something in common. */
+bool shape_parts_apart(const struct shape *, unsigned dimension);
 
 /* True if x is in the shape and farther than `margin` from its surface. */
 bool shape_inside(const struct shape *, const double x[3], double margin);

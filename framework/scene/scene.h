@@ -56,9 +56,9 @@ struct value {
   struct expression *expression; /* EXPRESSION */
   struct expression **each;      /* copies of it, one a thread, for who asked for them */
   size_t copies;
-  struct gamut_values *group;    /* GROUP, never null for one; and of `model` */
+  struct gamut_values *group;     /* GROUP, never null for one; and of `model` */
   const struct descriptor *model; /* PLUGIN, or the field of a random REAL; else null */
-  const struct tree *levels;     /* LEVELS: the mapping of paths to lists */
+  const struct tree *levels;      /* LEVELS: the mapping of paths to lists */
 };
 
 /* The values of one plugin instance, in the order of the descriptor's parameters. Plugins see it as
@@ -124,6 +124,7 @@ struct shape {
   struct shape *part; /* union: all of them; difference: the first without the others */
   size_t parts;
   struct shape_points points;
+  const struct shape_index *index; /* of many parts or points; null: they are asked one by one */
 };
 /* Distance from the surface, positive inside; where shapes are joined a lower bound of it. */
 double shape_depth(const struct shape *, const double x[3]);
@@ -208,17 +209,19 @@ struct scene {
   struct instance solver;
   struct material *material;
   size_t materials;
+  const struct tree *materials_node; /* where their names are looked up */
   struct gamut_body *body;
   size_t bodies;
   struct effect *effect;
   size_t effects;
+  const struct tree *effects_node; /* where their names are looked up */
   struct quantity *quantity;
   size_t quantities;
-  double output_every; /* 0: none; <0: -frames */
+  double output_every;                      /* 0: none; <0: -frames */
   double checkpoint_wall, checkpoint_every; /* s of wall time, axis; 0: at signals only */
   const char **output_field;
   size_t output_fields;
-  bool random; /* some parameter is random */
+  bool random;                               /* some parameter is random */
   struct random_parameter *random_parameter; /* in the order of the file */
   size_t random_parameters;
   /* of `uncertainty`; see study/study.h */
@@ -273,7 +276,7 @@ gamut_status values_set(struct values *, const struct descriptor *, size_t param
  * null. */
 struct pointwise;
 struct pointwise *pointwise_new(const struct values *, const struct descriptor *);
-void pointwise_free(struct pointwise *); /* accepts null */
+void pointwise_free(struct pointwise *);                       /* accepts null */
 bool pointwise_varies(const struct pointwise *, size_t index); /* accepts null */
 /* number[i] holds parameter i at one point, drawn where it has a field: derives the rest, checks
  * ranges and constraints. False with the parameter to blame and the reason. */

@@ -53,6 +53,8 @@ static double points_depth(const struct shape_points *points, const double x[3])
 double shape_depth(const struct shape *shape, const double x[3])
 {
   double depth = -INFINITY;
+  if (shape->index)
+    return shape_index_depth(shape, x);
   switch (shape->kind) {
   case SHAPE_NONE:
     return depth;
@@ -160,31 +162,17 @@ void shape_extent(const struct reading *reading, const struct shape *shape, doub
     lower[0] = fmax(lower[0], 0);
 }
 
-static bool bounds_apart(const struct shape *one, const struct shape *other, unsigned dimension)
-{
-  double lower[3], upper[3], low[3], high[3];
-  shape_bounds(one, lower, upper);
-  shape_bounds(other, low, high);
-  for (unsigned k = 0; k < dimension; k++)
-    if (lower[k] >= high[k] || low[k] >= upper[k])
-      return true;
-  return false;
-}
-
 /* The sum of the parts where their bounds have nothing in common. */
 static double union_volume(const struct shape *shape, unsigned dimension, bool revolved)
 {
   double sum = 0;
   for (size_t i = 0; i < shape->parts; i++) {
     double volume = shape_volume(&shape->part[i], dimension, revolved);
-    for (size_t k = 0; k < i; k++)
-      if (!bounds_apart(&shape->part[i], &shape->part[k], dimension))
-        return 0;
     if (!(volume > 0))
       return 0;
     sum += volume;
   }
-  return sum;
+  return shape_parts_apart(shape, dimension) ? sum : 0;
 }
 
 static double box_volume(const struct shape *shape, unsigned dimension, bool revolved)

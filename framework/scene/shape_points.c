@@ -1,6 +1,8 @@
 /* Points of a body from a CSV file: a line a point, the first line names the columns. */
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "scene/reading.h"
 
@@ -23,44 +25,83 @@ static double volume_around(const struct shape *shape, unsigned axes, const doub
   return shape->revolved ? volume * turn * place[0] : volume;
 }
 
-static bool point_fits(struct reading *reading, const struct tree *file, const struct shape *shape,
-                       size_t i, double volume)
+static bool point_fits(struct table_file *file, const struct shape *shape, size_t i, double volume)
 {
   const double *place = &shape->points.place[3 * i];
   if (shape->revolved && !(place[0] > 0))
-    blame_value(reading, file, "x is the radius, greater than 0",
-                "point %zu of '%s' has x = %.6g m", i + 1, file->text, place[0]);
+    table_file_blame(file, i, "x is the radius, greater than 0", "point %zu has x = %.6g m", i + 1,
+                     place[0]);
   else if (!(volume > 0))
-    blame_value(reading, file, "volumes greater than 0", "point %zu of '%s' has volume = %.6g",
-                i + 1, file->text, volume);
+    table_file_blame(file, i, "volumes greater than 0", "point %zu has volume = %.6g", i + 1,
+                     volume);
   else
     return true;
   return false;
 }
 
+struct seat {
+  double place[3];
+  size_t row;
+};
+
+static int by_place(const void *one, const void *other)
+{
+  const struct seat *a = one, *b = other;
+  for (int k = 0; k < 3; k++)
+    if (a->place[k] != b->place[k])
+      return a->place[k] < b->place[k] ? -1 : 1;
+  return (a->row > b->row) - (a->row < b->row);
+}
+
+/* Two points at one place would be matter in matter. */
+static bool points_differ(struct table_file *file, const struct shape_points *points)
+{
+  struct seat *seat = scene_take(points->count, sizeof *seat);
+  size_t first = SIZE_MAX, again = SIZE_MAX;
+  for (size_t i = 0; i < points->count; i++) {
+    memcpy(seat[i].place, &points->place[3 * i], sizeof seat[i].place);
+    seat[i].row = i;
+  }
+  qsort(seat, points->count, sizeof *seat, by_place);
+  for (size_t i = 1; i < points->count; i++)
+    if (memcmp(seat[i].place, seat[i - 1].place, sizeof seat[i].place) == 0 &&
+        seat[i].row < again) {
+      again = seat[i].row;
+      first = seat[i - 1].row;
+    }
+  free(seat);
+  if (again == SIZE_MAX)
+    return true;
+  table_file_blame(file, again, "each point once", "point %zu is where point %zu is, of line %zu",
+                   again + 1, first + 1, table_file_line(file, first));
+  return false;
+}
+
 /* From the rows of the file. */
-static bool points_take(struct reading *reading, const struct tree *file, const struct value *rows,
-                        double spacing, struct shape *shape)
+static bool points_take(struct reading *reading, struct table_file *file, double spacing,
+                        struct shape *shape)
 {
   unsigned axes = reading->axes ? reading->axes : 3;
-  size_t width = axes + (spacing > 0 ? 0 : 1), count = rows->numbers / width;
-  shape->points =
-      (struct shape_points){.count = count,
-                            .place = scene_keep(reading, 3 * count, sizeof(double)),
-                            .volume = scene_keep(reading, count, sizeof(double)),
-                            .half = scene_keep(reading, count, sizeof(double))};
-  for (size_t i = 0; i < count; i++) {
-    const double *row = &rows->number[i * width];
+  size_t numbers, width = axes + (spacing > 0 ? 0 : 1);
+  double *number = table_file_numbers(file, &numbers);
+  const size_t count = numbers / width;
+  bool fine = true;
+  shape->points = (struct shape_points){.count = count,
+                                        .place = scene_keep(reading, 3 * count, sizeof(double)),
+                                        .volume = scene_keep(reading, count, sizeof(double)),
+                                        .half = scene_keep(reading, count, sizeof(double))};
+  for (size_t i = 0; i < count && fine; i++) {
+    const double *row = &number[i * width];
     double *place = &shape->points.place[3 * i];
     for (unsigned k = 0; k < axes; k++)
-      place[k] = row[k];
+      place[k] = row[k] + 0.0; /* no negative zero: places are compared */
     double volume = spacing > 0 ? volume_around(shape, axes, place, spacing) : row[axes];
-    if (!point_fits(reading, file, shape, i, volume))
-      return false;
+    fine = point_fits(file, shape, i, volume);
     shape->points.volume[i] = volume;
     shape->points.half[i] = 0.5 * edge(shape, axes, place, volume);
   }
-  return true;
+  free(number);
+  return fine && points_differ(file, &shape->points);
 }
 
 bool shape_points_read(struct reading *reading, const struct tree *node, struct shape *shape)
@@ -70,7 +111,7 @@ bool shape_points_read(struct reading *reading, const struct tree *node, struct 
   unsigned axes = reading->axes ? reading->axes : 3;
   double spacing = 0;
   expect_keys(reading, node, known, COUNT_OF(known), "points");
-  if (!file || file->kind != TREE_SCALAR) {
+  if (!file || file->kind != TREE_SCALAR || file->text[0] == 0) {
     if (file || !was_meant(reading, node, "file"))
       blame_key(reading, node, "points: {file: NAME.csv}", "'points' names no file");
     return false;
@@ -85,9 +126,8 @@ bool shape_points_read(struct reading *reading, const struct tree *node, struct 
                                       .choice = name,
                                       .choice_unit = unit,
                                       .choices = axes + (spacing > 0 ? 0 : 1)};
-  struct value rows = {.parameter = &parameter};
-  bool fine = table_file_read(reading, &parameter, file, &rows) &&
-              points_take(reading, file, &rows, spacing, shape);
-  free(rows.number);
+  struct table_file *table = table_file_read(reading, &parameter, file);
+  bool fine = table && points_take(reading, table, spacing, shape);
+  table_file_free(table);
   return fine;
 }

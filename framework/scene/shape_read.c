@@ -211,8 +211,8 @@ static bool parts_read(struct reading *reading, const struct tree *node, const c
   bool fine = true;
   for (size_t i = 0; i < node->children; i++) {
     struct shape *part = &shape->part[shape->parts++];
-    fine = no_points(reading, node->child[i]) &&
-           part_read(reading, node->child[i], what, part) && fine;
+    fine = no_points(reading, node->child[i]) && part_read(reading, node->child[i], what, part) &&
+           fine;
   }
   return fine;
 }
@@ -273,6 +273,8 @@ static bool form_read(struct reading *reading, const struct tree *child, struct 
   *shape = (struct shape){.kind = SHAPE_NONE, .revolved = reading->axisymmetric};
   if (forms[i].read(reading, child, shape) && reading->faults == faults)
     shape->kind = forms[i].kind;
+  if (shape->kind == SHAPE_UNION || shape->kind == SHAPE_POINTS)
+    shape_index_make(reading, shape);
   return shape->kind != SHAPE_NONE;
 }
 

@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -69,16 +70,25 @@ static void collect_scene(struct collection *all, struct scene *scene)
     collect_values(all, scene->quantity[i].arguments, scene->quantity[i].arguments, NULL);
 }
 
+static int by_node(const void *one, const void *other)
+{
+  const uintptr_t a = (uintptr_t)((const struct random_parameter *)one)->node;
+  const uintptr_t b = (uintptr_t)((const struct random_parameter *)other)->node;
+  return (a > b) - (a < b);
+}
+
+/* `all` is sorted by node; a node stands for one parameter. */
 static void put_in_order(struct reading *reading, const struct collection *all,
                          const struct tree *node)
 {
   struct scene *scene = reading->scene;
   char path[PATH_SIZE];
-  for (size_t i = 0; i < all->count; i++) {
-    if (all->item[i].node != node)
-      continue;
+  const struct random_parameter wanted = {.node = node};
+  const struct random_parameter *found =
+      bsearch(&wanted, all->item, all->count, sizeof *all->item, by_node);
+  if (found) {
     struct random_parameter *next = &scene->random_parameter[scene->random_parameters++];
-    *next = all->item[i];
+    *next = *found;
     next->path = scene_text(reading, "%s", tree_path(node, path, sizeof path));
   }
   for (size_t i = 0; i < node->children; i++)
@@ -91,7 +101,10 @@ static void random_parameters_read(struct reading *reading)
   struct collection all = {0};
   collect_scene(&all, scene);
   scene->random_parameter = scene_keep(reading, all.count + 1, sizeof *scene->random_parameter);
-  put_in_order(reading, &all, scene->tree);
+  if (all.count > 0) {
+    qsort(all.item, all.count, sizeof *all.item, by_node);
+    put_in_order(reading, &all, scene->tree);
+  }
   free(all.item);
 }
 
@@ -166,11 +179,12 @@ static bool random_named(struct reading *reading, const struct tree *node, size_
     found = true;
   }
   if (!found)
-    blame_value(reading, node,
-                scene->random_parameters && !tree_at(scene->tree, path)
-                    ? suggest(path, name, scene->random_parameters, expected, sizeof expected)
-                    : "give it a spread, such as {mean: 90 MPa, cv: 0.1}",
-                "'%.200s' is no random parameter of this scene", path);
+    blame_value(
+        reading, node,
+        scene->random_parameters && !tree_at(scene->tree, path)
+            ? suggest(reading, path, name, scene->random_parameters, expected, sizeof expected)
+            : "give it a spread, such as {mean: 90 MPa, cv: 0.1}",
+        "'%.200s' is no random parameter of this scene", path);
   free(name);
   return found;
 }

@@ -136,19 +136,50 @@ const char *text_read(struct reading *reading, const struct tree *node, const ch
   return node->text;
 }
 
-const char **names_read(struct reading *reading, const struct tree *node, const char *name,
-                        size_t *count)
+/* Names sorted, equal ones in the order of the list. */
+static int by_name(const void *one, const void *other)
 {
+  const struct tree *const *a = one, *const *b = other;
+  int order = strcmp((*a)->text, (*b)->text);
+  if (order == 0)
+    order = ((*a)->place.line > (*b)->place.line) - ((*a)->place.line < (*b)->place.line);
+  if (order == 0)
+    order = ((*a)->place.column > (*b)->place.column) - ((*a)->place.column < (*b)->place.column);
+  return order;
+}
+
+static void blame_twice(struct reading *reading, const struct names *names, const char *name)
+{
+  const struct tree **sorted = scene_take(names->count, sizeof *sorted);
+  if (names->count)
+    memcpy(sorted, names->node, names->count * sizeof *sorted);
+  qsort(sorted, names->count, sizeof *sorted, by_name);
+  for (size_t i = 1; i < names->count; i++)
+    if (strcmp(sorted[i]->text, sorted[i - 1]->text) == 0)
+      blame_value(reading, sorted[i], NULL, "'%s' stands twice in '%s'", sorted[i]->text, name);
+  free(sorted);
+}
+
+struct names names_read(struct reading *reading, const struct tree *node, const char *name,
+                        size_t most)
+{
+  char expected[64];
   size_t items = node->kind == TREE_SEQUENCE ? node->children : 1;
-  const char **list = scene_keep(reading, items ? items : 1, sizeof *list);
-  *count = 0;
+  struct names names = {scene_keep(reading, items, sizeof *names.name),
+                        scene_keep(reading, items, sizeof *names.node), 0};
+  if (items > most) {
+    snprintf(expected, sizeof expected, "at most %zu", most);
+    blame_value(reading, node, expected, "'%s' has %zu names", name, items);
+    return names;
+  }
   for (size_t i = 0; i < items; i++) {
     const struct tree *item = node->kind == TREE_SEQUENCE ? node->child[i] : node;
     const char *text = text_read(reading, item, name);
-    if (text && has_name(list, *count, text))
-      blame_value(reading, item, NULL, "'%s' stands twice in '%s'", text, name);
-    else if (text)
-      list[(*count)++] = text;
+    if (!text)
+      continue;
+    names.name[names.count] = text;
+    names.node[names.count++] = item;
   }
-  return list;
+  blame_twice(reading, &names, name);
+  return names;
 }

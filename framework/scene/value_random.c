@@ -30,7 +30,7 @@ static bool kind_read(struct reading *reading, const struct tree *node,
       return true;
     }
   blame_value(reading, node,
-              suggest(text, kind_names, COUNT_OF(kind_names), expected, sizeof expected),
+              suggest(reading, text, kind_names, COUNT_OF(kind_names), expected, sizeof expected),
               "unknown distribution '%s'", text);
   return false;
 }

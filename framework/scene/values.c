@@ -22,7 +22,8 @@ static bool choice_read(struct reading *reading, const struct parameter *paramet
       return true;
     }
   blame_value(reading, node,
-              suggest(node->text, parameter->choice, parameter->choices, expected, sizeof expected),
+              suggest(reading, node->text, parameter->choice, parameter->choices, expected,
+                      sizeof expected),
               "%s: unknown choice '%.60s'", parameter->name, node->text);
   return false;
 }
@@ -82,10 +83,11 @@ static bool body_read(struct reading *reading, const struct parameter *parameter
 {
   char expected[WORDS_SIZE];
   value->text = text_read(reading, node, parameter->name);
-  if (!value->text || !reading->body || has_name(reading->body, reading->bodies, value->text))
+  if (!value->text || !reading->body ||
+      tree_number(reading->bodies_node, value->text) < reading->bodies)
     return value->text != NULL;
   blame_value(reading, node,
-              suggest(value->text, reading->body, reading->bodies, expected, sizeof expected),
+              suggest_key(reading, value->text, reading->bodies_node, expected, sizeof expected),
               "unknown body '%s'", value->text);
   return false;
 }
@@ -234,7 +236,7 @@ struct values *section_read(struct reading *reading, const struct section *secti
   values->node = section->node;
   size_t length = strlen(section->path) + 1;
   values->path = memcpy(scene_take(length, 1), section->path, length);
-  for (size_t i = 0; section->node && i < section->node->children; i++) {
+  for (size_t i = 0; section->node && !section->open && i < section->node->children; i++) {
     struct tree *child = section->node->child[i];
     if (!has_name(section->also, section->others, child->key) &&
         !parameter_named(section->parameter, section->count, child->key))
@@ -266,8 +268,17 @@ gamut_status values_read(const struct descriptor *descriptor, const struct param
     snprintf(what, sizeof what, "'%s'", path);
   if (node && !expect_mapping(&reading, node, what))
     return GAMUT_SCENE;
-  struct section section = {
-      own ? descriptor : NULL, parameter, count, node, path, what, also, others, false, false};
+  struct section section = {own ? descriptor : NULL,
+                            parameter,
+                            count,
+                            node,
+                            path,
+                            what,
+                            also,
+                            others,
+                            false,
+                            false,
+                            false};
   *values = section_read(&reading, &section);
   if (reading.faults) {
     values_free(*values);

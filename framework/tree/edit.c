@@ -16,9 +16,31 @@ static void replace(struct tree *base, struct tree *over)
   from->tree = old.tree;
   from->text = old.text;
   from->origin = old.origin;
+  from->index = old.index;
   for (size_t k = 0; k < base->children; k++)
     base->child[k]->parent = base;
   tree_free(over);
+}
+
+void tree_drop(struct tree *child)
+{
+  struct tree *parent = child->parent;
+  size_t index = 0;
+  while (parent->child[index] != child)
+    index++;
+  parent->children--;
+  memmove(parent->child + index, parent->child + index + 1,
+          (parent->children - index) * sizeof *parent->child);
+  index_renew(parent);
+  child->parent = NULL;
+  tree_free(child);
+}
+
+void tree_clear(struct tree *tree)
+{
+  while (tree->children > 0)
+    tree_free(tree->child[--tree->children]);
+  index_renew(tree);
 }
 
 void tree_merge(struct tree *base, struct tree *over)

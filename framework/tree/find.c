@@ -1,14 +1,7 @@
+#include <stdint.h>
 #include <string.h>
 
 #include "tree/node.h"
-
-static struct tree *child_named(const struct tree *tree, const char *key, size_t length)
-{
-  for (size_t k = 0; k < tree->children; k++)
-    if (strncmp(tree->child[k]->key, key, length) == 0 && tree->child[k]->key[length] == '\0')
-      return tree->child[k];
-  return NULL;
-}
 
 static struct tree *child_numbered(const struct tree *tree, const char *digits, size_t length)
 {
@@ -27,7 +20,13 @@ struct tree *tree_get(const struct tree *tree, const char *key)
 {
   if (tree == NULL || tree->kind != TREE_MAPPING)
     return NULL;
-  return child_named(tree, key, strlen(key));
+  size_t number = index_find(tree, key, strlen(key));
+  return number == SIZE_MAX ? NULL : tree->child[number];
+}
+
+size_t tree_number(const struct tree *tree, const char *key)
+{
+  return tree == NULL || tree->kind != TREE_MAPPING ? SIZE_MAX : index_find(tree, key, strlen(key));
 }
 
 const char *path_step(const char *path, bool first, struct step *step)
@@ -47,8 +46,10 @@ struct tree *path_child(const struct tree *tree, const struct step *step)
 {
   if (tree->kind == TREE_SEQUENCE)
     return child_numbered(tree, step->word, step->length);
-  if (tree->kind == TREE_MAPPING && !step->bracket)
-    return child_named(tree, step->word, step->length);
+  if (tree->kind == TREE_MAPPING && !step->bracket) {
+    size_t number = index_find(tree, step->word, step->length);
+    return number == SIZE_MAX ? NULL : tree->child[number];
+  }
   return NULL;
 }
 

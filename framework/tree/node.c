@@ -103,6 +103,7 @@ bool node_attach(struct tree *parent, struct tree *child)
   }
   parent->child[parent->children++] = child;
   child->parent = parent;
+  index_add(parent);
   return true;
 }
 
@@ -134,6 +135,7 @@ void tree_free(struct tree *tree)
     tree_free(tree->child[k]);
   struct node *node = (struct node *)tree;
   free(tree->child);
+  index_free(node->index);
   free(node->text);
   free(node->key);
   origin_release(node->origin);

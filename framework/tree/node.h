@@ -20,7 +20,16 @@ struct node {
   struct tree tree;
   char *text, *key;
   struct origin *origin;
+  struct key_index *index; /* of a mapping with many keys; null: they are looked up one by one */
 };
+
+/* tree/index.c: where each key of a mapping stands, by a hash of the key. Never wrong, only absent:
+ * without memory there is none. */
+void index_add(struct tree *mapping);   /* the last child is new */
+void index_renew(struct tree *mapping); /* children have gone or moved */
+void index_free(struct key_index *);    /* accepts null */
+/* The number of the child with that key; SIZE_MAX if there is none. */
+size_t index_find(const struct tree *mapping, const char *key, size_t length);
 
 /* Copies name and text, one reference; null without memory. */
 struct origin *origin_new(const char *name, const char *text, size_t size);
@@ -57,10 +66,7 @@ struct tree *path_child(const struct tree *, const struct step *);
 const char *path_enter(const struct tree *, const char *path, bool first, struct step *,
                        struct tree **child);
 
-/* tree/source.c: the whole file; *text is allocated. */
-gamut_status source_load(const char *file, gamut_status blame, struct trace *, char **text,
-                         size_t *size);
-/* Refuses what is no text at all before a parser sees it. */
+/* tree/source.c: refuses what is no text at all before a parser sees it. */
 gamut_status source_check(const struct origin *, const char *text, size_t size, gamut_status blame,
                           struct trace *);
 

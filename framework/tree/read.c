@@ -3,6 +3,7 @@
 
 #include <yaml.h>
 
+#include "tree/load.h"
 #include "tree/node.h"
 #include "tree/problem.h"
 
@@ -356,13 +357,13 @@ done:
 gamut_status tree_read(const char *file, gamut_status blame, struct trace *trace,
                        struct tree **root)
 {
-  char *text;
+  char *text, why[160];
   size_t size;
+  struct place place = {.file = file};
   *root = NULL;
-  gamut_status status = source_load(file, blame, trace, &text, &size);
-  if (status == GAMUT_OK) {
-    status = tree_parse(text, size, file, blame, trace, root);
-    free(text);
-  }
+  if (!text_load(file, TREE_BYTES_MAX, &text, &size, why, sizeof why))
+    return trace_fail_at(trace, blame, &place, NULL, NULL, "%s", why);
+  gamut_status status = tree_parse(text, size, file, blame, trace, root);
+  free(text);
   return status;
 }

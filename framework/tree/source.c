@@ -1,63 +1,8 @@
-#include <errno.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "tree/node.h"
-
-static gamut_status refuse_size(const char *file, long long bytes, gamut_status blame,
-                                struct trace *trace)
-{
-  struct place place = {.file = file};
-  if (bytes > 0)
-    return trace_fail_at(trace, blame, &place, NULL, "is this the right file?",
-                         "the file has %lld bytes; at most %d are read", bytes, TREE_BYTES_MAX);
-  return trace_fail_at(trace, blame, &place, NULL, "is this the right file?",
-                       "the file has more than the %d bytes that are read", TREE_BYTES_MAX);
-}
-
-gamut_status source_load(const char *file, gamut_status blame, struct trace *trace, char **text,
-                         size_t *size)
-{
-  struct place place = {.file = file};
-  struct stat about;
-  gamut_status status = GAMUT_OK;
-  *text = NULL;
-  FILE *stream = fopen(file, "rb");
-  if (stream == NULL || fstat(fileno(stream), &about) != 0) {
-    status = trace_fail_at(trace, blame, &place, NULL, NULL, "cannot open the file: %s",
-                           strerror(errno));
-    goto done;
-  }
-  if (S_ISDIR(about.st_mode)) {
-    status = trace_fail_at(trace, blame, &place, NULL, NULL, "this is a directory, not a file");
-    goto done;
-  }
-  if (S_ISREG(about.st_mode) && about.st_size > TREE_BYTES_MAX) {
-    status = refuse_size(file, (long long)about.st_size, blame, trace);
-    goto done;
-  }
-  *text = malloc(TREE_BYTES_MAX + 1);
-  if (*text == NULL) {
-    status = trace_fail(trace, GAMUT_INTERNAL, "no memory left to read '%s'", file);
-    goto done;
-  }
-  *size = fread(*text, 1, TREE_BYTES_MAX + 1, stream);
-  if (ferror(stream))
-    status = trace_fail_at(trace, blame, &place, NULL, NULL, "cannot read the file: %s",
-                           strerror(errno));
-  else if (*size > TREE_BYTES_MAX)
-    status = refuse_size(file, 0, blame, trace);
-done:
-  if (stream != NULL)
-    fclose(stream);
-  if (status != GAMUT_OK) {
-    free(*text);
-    *text = NULL;
-  }
-  return status;
-}
 
 /* Bytes of the character of UTF-8 at `at`; 0 if the bytes are none. */
 static size_t character(const unsigned char *at, size_t left, uint32_t *code)

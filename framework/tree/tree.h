@@ -38,6 +38,9 @@ void tree_free(struct tree *root); /* a root and all below; accepts null */
 
 /* Child of a mapping by key; null if absent or if `t` is no mapping (or null). */
 struct tree *tree_get(const struct tree *t, const char *key);
+/* The number of that child among the others; SIZE_MAX if it is absent. Both take a time that does
+ * not grow with the mapping. */
+size_t tree_number(const struct tree *t, const char *key);
 /* By scene path "bodies.bar.shape.cylinder.length"; sequence items by number ("a.0" or "a[0]"). Of
  * keys with dots the longest that is there is meant. */
 struct tree *tree_at(const struct tree *t, const char *path);
@@ -50,6 +53,9 @@ struct tree *tree_copy(const struct tree *t);
 /* Puts `over` into `base`: mappings key by key, everything else replaces. `over` is consumed. Used
  * for include (the including file wins) and --set. */
 void tree_merge(struct tree *base, struct tree *over);
+/* Takes a child out of its parent and frees it; or all children of a mapping or list. */
+void tree_drop(struct tree *child);
+void tree_clear(struct tree *);
 /* Sets base.path = value, making mappings on the way; value (a root) is consumed. Of a list only
  * items that are there can be set. Refused with GAMUT_USAGE at the value's place; base is then
  * unchanged. */

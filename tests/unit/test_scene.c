@@ -272,9 +272,9 @@ static void test_tables(void)
   table("5 MPa", 2, 5e6);
 #define LOAD(text)                                                                                 \
   "gamut: 1\nsolver: {model: grid, geometry: 3d, cell: 1 mm, end: 1 s, load: " text "}\n"
-  bad(LOAD("{file: odd.csv}"), "(solver.load.file)", "odd.csv:3: 'two' is no value of 'pressure'",
+  bad(LOAD("{file: odd.csv}"), "(solver.load.file)", "odd.csv:3:4: error: 'two' is no value",
       "SI");
-  bad(LOAD("{file: none.csv}"), "(solver.load.file)", "table file 'none.csv' cannot be read", "");
+  bad(LOAD("{file: none.csv}"), "(solver.load.file)", "table file 'none.csv': cannot open", "");
   bad(LOAD("[[0 s]]"), "(solver.load.0)", "row 1 of the table 'load' has not 2 columns",
       "[time, pressure]");
   bad(LOAD("[]"), "(solver.load)", "'load' is an empty list where a table is due", "rows");

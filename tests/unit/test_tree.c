@@ -348,8 +348,8 @@ static void test_files(void)
 {
   check_file("no such file", "no/such.yaml", GAMUT_PLUGIN,
              "no/such.yaml: error: cannot open the file: No such file");
-  check_file("a directory", ".", GAMUT_PLUGIN, "this is a directory");
-  check_file("an endless file", "/dev/zero", GAMUT_PLUGIN, "more than the 4194304 bytes");
+  check_file("a folder", ".", GAMUT_PLUGIN, "this is a folder, not a file");
+  check_file("an endless device", "/dev/zero", GAMUT_PLUGIN, "this is a device, not a file");
   char name[] = "test_tree_XXXXXX";
   int handle = mkstemp(name);
   FILE *stream = fdopen(handle, "w");
