@@ -157,6 +157,17 @@ def benchmark():
                   "points", "time"], rows)
 
 
+def two_codes():
+    rows = [["two codes", ""] + [f"{low / scale:.5g} to {high / scale:.5g}"
+                                 for _, _, low, high, _, _, scale, _ in taylor_bars.TWO_CODES]]
+    for cells in (5, 10, 20):
+        values, _ = taylor_bars.two_codes(cells)
+        rows.append(["gamut", str(cells)] + [f"{value / entry[6]:.5g}" for value, entry
+                                             in zip(values, taylor_bars.TWO_CODES)])
+    return table(["", "cells in the radius", "length, mm", "foot, mm", "plastic strain on the axis",
+                  "temperature there, degC"], rows)
+
+
 def benchmark_row(measure):
     try:
         f = measure()
@@ -245,7 +256,7 @@ def ledger():
 
 
 TABLES = {f.__name__: f for f in (machine, hugoniot, hugoniot_grids, release, strong, vibrating,
-                                  kept, sod, benchmark, shots, grids, what_if, ledger)}
+                                  kept, sod, benchmark, two_codes, shots, grids, what_if, ledger)}
 
 
 def plot(data, commands, name):

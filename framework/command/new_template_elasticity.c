@@ -28,8 +28,12 @@ static const char descriptor[] =
     "  inverted: {severity: stop, text: \"turned inside out: the step takes the "
     "volume to zero or below\"}\n"
     "measures:\n"
-    "  pressure: {unit: Pa, at: point, formula: \"-(stress_xx + stress_yy + stress_zz) / 3\",\n"
-    "             doc: \"mean stress, positive in compression\"}\n";
+    "  pressure: {unit: Pa, at: point,\n"
+    "             formula: \"-(stress_xx + stress_yy + stress_zz) / 3 - viscous_pressure\",\n"
+    "             doc: \"mean stress, positive in compression, without viscous pressure\"}\n"
+    "  total_pressure: {unit: Pa, at: point,\n"
+    "                   formula: \"-(stress_xx + stress_yy + stress_zz) / 3\",\n"
+    "                   doc: \"the same with viscous pressure\"}\n";
 
 static const char source[] =
     "#include \"@NAME@.gamut.h\"\n"

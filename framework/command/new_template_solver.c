@@ -11,6 +11,7 @@ static const char descriptor[] =
     "parameters:\n"
     "  end: {unit: s, physical: \"(0, inf)\", doc: when the run ends}\n"
     "  step: {unit: s, physical: \"(0, inf)\", doc: the longest step}\n"
+    "outputs: [position, velocity, mass]\n"
     "phases: [move]\n"
     "axis: {name: time, unit: s}\n"
     "provides: [points]\n"

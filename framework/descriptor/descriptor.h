@@ -50,8 +50,8 @@
  *   body_parameters:, material_parameters:   like parameters: keys that this plugin adds to every
  *                                      body (solver) or material (effects, elasticity)
  *   requires: [plane]                  names in somebody's `provides`
- *   provides: [plane, points]          an elasticity: imposed_stress, where its step begins with the
- *                                      deviator of `stress`, so that effects may set it; an
+ *   provides: [plane, points]          an elasticity: imposed_stress, where its step begins with
+ *                                      the deviator of `stress`, so that effects may set it; an
  *                                      effect: opened_matter, where the eos will be asked for
  *                                      matter that is pulled apart
  *   phases: [..]                       solver

@@ -1,4 +1,4 @@
-/* Whose code runs on which thread, so that a plugin that crashes, ends the program or hangs is named
+/* Whose code runs on which thread: a plugin that crashes, ends the program or hangs is named
  * and the command's exit code says so. The marks cost a few nanoseconds a call of a kernel; only a
  * program that calls guard_install has its signals touched (a program that embeds the library keeps
  * its own). */
@@ -28,8 +28,8 @@ gamut_status guard_pop(gamut_status);
 /* From now on a crash, exit() or hang in a plugin ends the program with GAMUT_PLUGIN and the
  * plugin's name, a crash outside of plugins with GAMUT_INTERNAL. Call once, from main. */
 void guard_install(int call_seconds);
-/* `stop` becomes the number of the signal that asks for the end. Where that is SIGTERM, a plugin that
- * is in one call throughout the grace is ended as one that hangs, and the program in any case. */
+/* `stop` becomes the number of the signal that asks for the end. Where that is SIGTERM, a plugin
+ * that is in one call throughout the grace is ended as one that hangs, and the program in any case. */
 void guard_obey(const volatile sig_atomic_t *stop);
 /* The program comes to its end by itself: exit() is no longer a fault. */
 void guard_finish(void);

@@ -102,8 +102,8 @@ static gamut_status check_opened(struct gamut_run *run, const struct running_eff
     const struct message *message = status_message(eos, word);
     trace_warn_at(run->trace, asked->node ? &asked->node->place : NULL,
                   asked->node ? tree_path(asked->node, path, sizeof path) : NULL, NULL,
-                  "effect '%s' (%s) lets matter open, but %s of material '%s' stops a run in opened "
-                  "matter (at compression %.3g: %s)",
+                  "effect '%s' (%s) lets matter open, but %s of material '%s' stops a run in "
+                  "opened matter (at compression %.3g: %s)",
                   asked->name, asked->descriptor->id, eos->id, material->name, mu,
                   message ? message->text : "no message");
   }

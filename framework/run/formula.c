@@ -33,16 +33,48 @@ static void free_names(char **name, size_t count)
   free(name);
 }
 
-static gamut_status keep_used(struct formula *formula, size_t count, size_t density)
+static bool offers(const struct descriptor *d, const struct measure *measure)
+{
+  for (size_t i = 0; d && i < d->measures; i++)
+    if (&d->measure[i] == measure)
+      return true;
+  return false;
+}
+
+/* The plugin that offers a measure of points: the solver, or the elasticity of a material. */
+static const struct descriptor *owner_of(const struct gamut_run *run, const struct measure *measure)
+{
+  const struct scene *scene = run->scene;
+  for (size_t m = 0; m < scene->materials; m++)
+    if (offers(scene->material[m].elasticity.descriptor, measure))
+      return scene->material[m].elasticity.descriptor;
+  return offers(scene->solver.descriptor, measure) ? scene->solver.descriptor : NULL;
+}
+
+/* A plugin's optional input is zero where nobody provides it, for its measures as for its kernels.
+ */
+static bool zero_for(const struct descriptor *d, const struct field *field)
+{
+  for (size_t i = 0; d && i < d->inputs; i++)
+    if (d->input[i].optional && strcmp(d->input[i].name, field->name) == 0)
+      return true;
+  return false;
+}
+
+static gamut_status keep_used(struct formula *formula, const struct gamut_run *run,
+                              const struct descriptor *owner, size_t count, size_t density)
 {
   formula->variable = calloc(count + 1, sizeof *formula->variable);
   formula->position = calloc(count + 1, sizeof *formula->position);
   formula->value = calloc(count + 1, sizeof *formula->value);
-  if (!formula->variable || !formula->position || !formula->value)
+  formula->zero = calloc(count + 1, sizeof *formula->zero);
+  if (!formula->variable || !formula->position || !formula->value || !formula->zero)
     return GAMUT_INTERNAL;
   for (size_t k = 0; k < count; k++)
     if (expression_uses(formula->expression, k)) {
       formula->position[formula->variables] = k;
+      formula->zero[formula->variables] =
+          k != density && zero_for(owner, fields_of_component(run->fields, k));
       formula->variable[formula->variables++] = k == density ? SIZE_MAX : k;
     }
   return GAMUT_OK;
@@ -74,9 +106,11 @@ gamut_status formula_declare(struct gamut_run *run, const char *text)
   return GAMUT_OK;
 }
 
-gamut_status formula_new(struct gamut_run *run, const char *text, struct formula *formula)
+gamut_status formula_new(struct gamut_run *run, const struct measure *measure,
+                         struct formula *formula)
 {
   char why[256];
+  const char *text = measure->formula;
   gamut_status status = formula_declare(run, text);
   size_t count = fields_components(run->fields), density = count;
   const struct field *known = fields_find(run->fields, density_name);
@@ -93,7 +127,7 @@ gamut_status formula_new(struct gamut_run *run, const char *text, struct formula
     status =
         trace_fail(run->trace, GAMUT_PLUGIN,
                    "the measure's formula '%s' cannot be worked out in this scene: %s", text, why);
-  else if (keep_used(formula, count, density) != GAMUT_OK)
+  else if (keep_used(formula, run, owner_of(run, measure), count, density) != GAMUT_OK)
     status = trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   free_names(name, count);
   return status;
@@ -124,7 +158,8 @@ double formula_value(struct formula *formula, const struct gamut_run *run,
     formula->value[formula->position[i]] = k == SIZE_MAX
                                                ? run->scene->material[set->material].density
                                            : array ? array[slot]
-                                                   : NAN;
+                                           : formula->zero[i] ? 0.0
+                                                              : NAN;
   }
   return expression_value(formula->expression, formula->value);
 }
@@ -133,11 +168,12 @@ void formula_want(const struct formula *formula, struct gamut_run *run, size_t s
                   const struct place *place)
 {
   if (!formula->expression && formula->plain != SIZE_MAX)
-    schedule_want(run->schedule, fields_of_component(run->fields, formula->plain), set, why, place);
+    schedule_want(run->schedule, fields_of_component(run->fields, formula->plain), set, why, place,
+                  false);
   for (size_t i = 0; i < formula->variables; i++)
     if (formula->variable[i] != SIZE_MAX)
       schedule_want(run->schedule, fields_of_component(run->fields, formula->variable[i]), set, why,
-                    place);
+                    place, formula->zero[i]);
 }
 
 void formula_free(struct formula *formula)
@@ -146,5 +182,6 @@ void formula_free(struct formula *formula)
   free(formula->variable);
   free(formula->position);
   free(formula->value);
+  free(formula->zero);
   *formula = (struct formula){.plain = SIZE_MAX};
 }

@@ -47,7 +47,7 @@ static gamut_status measure_column(struct gamut_run *run, const char *name,
     *found = true;
     column->unit = measure->unit;
     column->meaning = measure->doc;
-    TRY(formula_new(run, measure->formula, &column->formula[m]));
+    TRY(formula_new(run, measure, &column->formula[m]));
     formula_want(&column->formula[m], run, SIZE_MAX, why, place_of_field(run, name));
   }
 done:
@@ -81,7 +81,7 @@ static gamut_status create_column(struct gamut_run *run, const char *name,
                          name);
   column->unit = field->unit;
   column->meaning = field->meaning;
-  schedule_want(run->schedule, field, SIZE_MAX, why, place_of_field(run, name));
+  schedule_want(run->schedule, field, SIZE_MAX, why, place_of_field(run, name), false);
 done:
   return status;
 }

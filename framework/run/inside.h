@@ -50,6 +50,7 @@ struct formula {
   size_t plain;
   size_t *variable, variables;   /* components that the expression uses; SIZE_MAX: density */
   size_t *position;              /* their places in `value` */
+  bool *zero;                    /* whether they are zero where nobody writes them */
   double *value;
 };
 
@@ -180,7 +181,8 @@ gamut_status effects_check(struct gamut_run *);
 gamut_status declare_states(struct gamut_run *, const struct descriptor *);
 
 /* formula.c */
-gamut_status formula_new(struct gamut_run *, const char *text, struct formula *);
+/* Of a measure of points that has a formula. */
+gamut_status formula_new(struct gamut_run *, const struct measure *, struct formula *);
 gamut_status formula_plain(struct gamut_run *, const char *component, struct formula *);
 double formula_value(struct formula *, const struct gamut_run *, const struct point_set *,
                      size_t slot);
@@ -195,6 +197,9 @@ gamut_status formula_declare(struct gamut_run *, const char *text);
  * bodies once there are arrays. */
 void given_mark(struct gamut_run *);
 void given_fill(struct gamut_run *);
+
+/* wants.c: tells the scheduler of the fields that a quantity's argument `field` needs. */
+gamut_status wants_of_arguments(struct gamut_run *, const struct quantity *, const char *why);
 
 /* observe.c */
 gamut_status observe_create(struct gamut_run *);

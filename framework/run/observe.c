@@ -61,14 +61,15 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
     probe->history->axis = axis->name;
     probe->history->axis_unit = axis->unit;
   }
+  snprintf(why, sizeof why, "quantity '%s'",
+           quantity->family ? quantity->family : quantity->name);
+  TRY(wants_of_arguments(run, quantity, why));
   if (from_points(quantity)) {
     if (quantity->measure && quantity->measure->formula)
-      TRY(formula_new(run, quantity->measure->formula, &probe->formula));
+      TRY(formula_new(run, quantity->measure, &probe->formula));
     else
       TRY(formula_plain(run, quantity->measure ? quantity->measure->name : quantity->field,
                         &probe->formula));
-    snprintf(why, sizeof why, "quantity '%s'",
-             quantity->family ? quantity->family : quantity->name);
     formula_want(&probe->formula, run, quantity->body >= 0 ? (size_t)quantity->body : SIZE_MAX, why,
                  quantity->node ? &quantity->node->place : NULL);
   } else if (quantity->effect) {

@@ -111,7 +111,7 @@ static gamut_status check_want(const struct schedule *schedule, const struct wan
                                struct trace *trace)
 {
   const struct field *field = want->field;
-  if (field->where != GAMUT_AT_POINT || written(schedule, field, want->set))
+  if (field->where != GAMUT_AT_POINT || want->zero || written(schedule, field, want->set))
     return GAMUT_OK;
   if (field->given == GIVEN_BY_NOBODY)
     return trace_fail_at(

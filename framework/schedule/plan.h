@@ -12,6 +12,7 @@ struct want {
   struct field *field;
   size_t set; /* SIZE_MAX: any */
   char *why;
+  bool zero; /* where nobody writes it the value is zero, and that is right */
   struct place place; /* no file: none */
 };
 

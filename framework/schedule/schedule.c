@@ -158,13 +158,13 @@ void schedule_decline(struct schedule *schedule, const char *owner, const char *
 }
 
 void schedule_want(struct schedule *schedule, struct field *field, size_t set, const char *why,
-                   const struct place *place)
+                   const struct place *place, bool zero)
 {
   struct want *grown = realloc(schedule->want, (schedule->wants + 1) * sizeof *grown);
   if (!grown)
     return;
   schedule->want = grown;
-  grown[schedule->wants++] = (struct want){field, set, strdup(why), {0}};
+  grown[schedule->wants++] = (struct want){field, set, strdup(why), zero, {0}};
   if (place)
     grown[schedule->wants - 1].place = *place;
 }

@@ -46,9 +46,10 @@ void schedule_plugin(struct schedule *, const char *plugin);
 /* Records an effect (or task) that is off, with the reason, for explain. */
 void schedule_decline(struct schedule *, const char *owner, const char *why);
 /* Somebody outside the tasks ("quantity speed") reads this field between steps, on one set or, with
- * SIZE_MAX, on any. `place` of who wants it, copied, or null. */
+ * SIZE_MAX, on any. `place` of who wants it, copied, or null. `zero`: who wants it takes zero where
+ * nobody writes it; else that is an error. */
 void schedule_want(struct schedule *, struct field *, size_t set, const char *why,
-                   const struct place *place);
+                   const struct place *place, bool zero);
 /* Works the plan out. Errors: nothing provides a field that is read or wanted, unknown phase, a
  * cycle (named). Warns of what is wanted and never changes. */
 gamut_status schedule_plan(struct schedule *, struct fields *, size_t sets, struct trace *);

@@ -17,6 +17,7 @@ BOUNDS = {
     "taylor_bar_4340": {"final_length": (22e-3, 23.5e-3), "foot_diameter": (9.7e-3, 12.5e-3),
                         "diameter_at_0.2L": (7.9e-3, 8.8e-3)},
     "taylor_bar_benchmark": {"final_length": (21e-3, 22.2e-3), "foot_diameter": (14e-3, 14.7e-3)},
+    "taylor_bar_42crmo4": {"final_length": (26.3e-3, 26.8e-3), "foot_diameter": (11e-3, 11.5e-3)},
     "plate_impact": {"plateau_pressure": (9.56e9, 9.76e9), "shock_speed": (4269.0, 4355.0)},
     "sod": {"plateau_pressure": (0.300, 0.306), "plateau_velocity": (0.918, 0.937),
             "shock_speed": (1.73, 1.77)},

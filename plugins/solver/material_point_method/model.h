@@ -69,7 +69,7 @@ struct ledger {
 struct fields {
   struct gamut_field position, velocity, mass, volume_ratio, stress, energy, velocity_gradient,
       external_force, sound_speed, omega_squared, cell_size, reference_volume, domain_length,
-      affine_velocity, removal;
+      affine_velocity, viscous_pressure, removal;
 };
 
 /* The most that the points of a block have. */

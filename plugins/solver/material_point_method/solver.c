@@ -179,6 +179,7 @@ static gamut_status find_fields(struct model *m)
                 {"cell_size", &f->cell_size},
                 {"domain_length", &f->domain_length},
                 {"affine_velocity", &f->affine_velocity},
+                {"viscous_pressure", &f->viscous_pressure},
                 {"removal", &f->removal}};
   gamut_status status = GAMUT_OK;
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted && status == GAMUT_OK; i++)

@@ -176,11 +176,12 @@ static gamut_status field_pointer(struct model *m, const struct cloud *c, const 
                                      name);
 }
 
-static double sample(const struct cloud *c, const char *name, const double *field, size_t i)
+/* `field`, or without one the mean stress, positive in compression, less `part` of it. */
+static double sample(const struct cloud *c, const double *field, const double *part, size_t i)
 {
-  if (strcmp(name, "pressure") == 0)
-    return -(c->stress[0][i] + c->stress[1][i] + c->stress[2][i]) / 3.0;
-  return field[i];
+  if (field)
+    return field[i];
+  return -(c->stress[0][i] + c->stress[1][i] + c->stress[2][i]) / 3.0 - (part ? part[i] : 0.0);
 }
 
 enum reduce { FRONT, MEAN, MAXIMUM };
@@ -191,9 +192,11 @@ static gamut_status over_field(struct model *m, const struct cloud *c, enum redu
                                const struct gamut_values *arguments, double *value)
 {
   const char *name = gamut_text(arguments, "field");
-  const double *field = NULL;
+  const double *field = NULL, *viscous = NULL;
   double sign, sum = 0.0, weight = 0.0, most = -INFINITY;
-  if (strcmp(name, "pressure") != 0) {
+  if (strcmp(name, "pressure") == 0) {
+    viscous = m->host->stored(c->set, m->field.viscous_pressure, 0);
+  } else if (strcmp(name, "total_pressure") != 0) {
     const gamut_status status = field_pointer(m, c, name, &field, &sign);
     if (status != GAMUT_OK)
       return status;
@@ -203,7 +206,7 @@ static gamut_status over_field(struct model *m, const struct cloud *c, enum redu
   for (size_t i = 0; i < c->set->slots; i++) {
     if (c->set->id[i] < 0)
       continue;
-    const double here = sample(c, name, field, i), volume = c->mass[i] * c->ratio[i];
+    const double here = sample(c, field, viscous, i), volume = c->mass[i] * c->ratio[i];
     if (how == FRONT) {
       if (here >= level && c->x[axis][i] > most)
         most = c->x[axis][i];
