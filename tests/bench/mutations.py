@@ -3,9 +3,11 @@ and runs the tests that must notice: "caught" or "SURVIVED" for each. By hand; t
 
     python3 tests/bench/mutations.py [--scratch FOLDER] [--table] [WORD ...]
 
-WORDs choose mutations by their name. --table writes docs/results/mutations.md. A copy in FOLDER is
-kept and used again."""
+WORDs choose mutations by their name. A copy in FOLDER is kept and used again, with what was found
+(mutations.json), so that several calls may share the work. --table writes docs/results/mutations.md
+from what was found of all."""
 import argparse
+import json
 import os
 import re
 import shutil
@@ -142,15 +144,19 @@ def cell(text):
     return text.replace("|", "\\|").replace("<", "&lt;")[:110]
 
 
-def table(rows):
-    caught = sum(row[2] for row in rows)
+def table(mutations, kept):
+    missing = [m["name"] for m in mutations if m["name"] not in kept]
+    if missing:
+        raise SystemExit("no table: not tried yet: " + "; ".join(missing))
+    rows = [(m, kept[m["name"]]) for m in mutations]
+    caught = sum(not any(passed for _, passed, _ in found) for _, found in rows)
     lines = ["# Mutations", "",
              "Formulas made wrong on purpose, one at a time, and whether the tests named for them",
              "notice. Without a mutation all of these tests pass. Made by", "",
              "    python3 tests/bench/mutations.py --table", "",
              f"{caught} of {len(rows)} were caught by every test named for them.", "",
              "| mutation | file | test | what it said |", "|---|---|---|---|"]
-    for mutation, found, caught, _ in rows:
+    for mutation, found in rows:
         for test, passed, line in found:
             lines.append(f"| {cell(mutation['name'])} | `{mutation['file'].split('/', 1)[1]}` | "
                          f"`{test}` | {'**survived**' if passed else cell(line)} |")
@@ -176,22 +182,25 @@ def main():
         print(f"{'passes' if passed else 'FAILS'} without a mutation: {test} {line}", flush=True)
         if not passed:
             raise SystemExit("a test that fails anyway catches nothing")
-    rows = []
+    kept_file = os.path.join(folder, "mutations.json")
+    kept = json.loads(read(kept_file)) if os.path.exists(kept_file) else {}
+    survivors = 0
     for mutation in chosen:
         begin = time.time()
-        found = mutate(copy, mutation)
-        caught = not any(passed for _, passed, _ in found)
-        rows.append((mutation, found, caught, time.time() - begin))
-        print(f"{'caught' if caught else 'SURVIVED'}: {mutation['name']} ({rows[-1][3]:.0f} s)",
-              flush=True)
+        found = kept[mutation["name"]] = mutate(copy, mutation)
+        write(kept_file, json.dumps(kept, indent=1))
+        survived = any(passed for _, passed, _ in found)
+        survivors += survived
+        print(f"{'SURVIVED' if survived else 'caught'}: {mutation['name']} "
+              f"({time.time() - begin:.0f} s)", flush=True)
         for test, passed, line in found:
             print(f"    {test}: {'passes' if passed else line}", flush=True)
-    print(f"{sum(r[2] for r in rows)} of {len(rows)} caught")
+    print(f"{len(chosen) - survivors} of {len(chosen)} caught")
     if arguments.table:
-        table(rows)
+        table(mutations, kept)
     if not arguments.scratch:
         shutil.rmtree(folder)
-    return 0 if all(r[2] for r in rows) else 1
+    return 1 if survivors else 0
 
 
 if __name__ == "__main__":
