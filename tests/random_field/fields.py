@@ -70,6 +70,13 @@ def test_distributions():
                  (white.mean() / 90e6 - 1) / 0.1 * math.sqrt(n), 5)
     scenes.below("white: standard deviation off 9 MPa, in standard errors",
                  (white.std() / 9e6 - 1) * math.sqrt(2 * n), 5)
+    # One number u makes both noises, z = quantile(u) and a signed Weibull number that lies below
+    # 0.5 - u (or 1.5 - u) of all others: so what the parameter makes of both adds up.
+    normal, signed = (np.array([0.5 * math.erfc(-(x / 90e6 - 1) / (0.1 * math.sqrt(2)))
+                                for x in field_of(strength(f"model: white, distribution: {name}"))])
+                      for name in ("normal", "weibull"))
+    scenes.below("white: probabilities of normal and Weibull noise of one number, sum against 0.5, "
+                 "1.5", np.max(np.abs((normal + signed) % 1.0 - 0.5)), 1e-12)
     uniform = field_of(strength("model: white, distribution: weibull",
                                 "distribution: uniform, lower: 80 MPa, upper: 100 MPa"),
                        cell="0.25 mm")
