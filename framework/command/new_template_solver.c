@@ -19,6 +19,8 @@ static const char descriptor[] =
     "  mean_position_x: {unit: m, at: run, doc: mean x of all points}\n";
 
 static const char source[] =
+    "#include <string.h>\n"
+    "\n"
     "#include \"@NAME@.gamut.h\"\n"
     "\n"
     "struct state {\n"
@@ -162,9 +164,10 @@ static const char source_rest[] =
     "                            const struct gamut_values *arguments, double *value)\n"
     "{\n"
     "  const struct state *s = self;\n"
-    "  (void)name; /* there is only one */\n"
     "  (void)body;\n"
     "  (void)arguments;\n"
+    "  if (strcmp(name, \"mean_position_x\") != 0)\n"
+    "    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */\n"
     "  *value = 0;\n"
     "  for (size_t i = 0; i < gamut_bodies(s->run); i++)\n"
     "    *value += array(s, i, s->position, 0)[0] / (double)gamut_bodies(s->run);\n"

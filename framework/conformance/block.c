@@ -244,10 +244,20 @@ static size_t unflagged(const struct block *block, const struct work *work, cons
   return bad;
 }
 
-static void call(struct block *block, const struct work *work, size_t count)
+bool bench_call_kept(struct bench *bench, kernel_function function, size_t count)
+{
+  fenv_t before, after;
+  fegetenv(&before);
+  bench_call(bench, function, count);
+  fegetenv(&after);
+  fesetenv(&before);
+  return same_arithmetic(&before, &after);
+}
+
+static bool call(struct block *block, const struct work *work, size_t count)
 {
   prepare(block, work);
-  bench_call(block->bench, work->function, count);
+  return bench_call_kept(block->bench, work->function, count);
 }
 
 static void move_to_front(struct block *block, size_t from, size_t count)
@@ -281,6 +291,7 @@ static size_t differing_in_blocks(struct block *block, const struct work *work,
 }
 
 struct findings {
+  size_t arithmetic;
   size_t unflagged, unrepeatable, blocks, touched, left, beyond, flagged, points;
   char which[4][120];
 };
@@ -298,7 +309,7 @@ static void work_round(struct block *block, const struct work *work, struct find
   count_writes(block, work, 0, &f->left, &f->beyond, f->which[2], sizeof f->which[2]);
   call(block, work, 7);
   count_writes(block, work, 7, &f->left, &f->beyond, f->which[2], sizeof f->which[2]);
-  call(block, work, BLOCK_POINTS);
+  f->arithmetic += !call(block, work, BLOCK_POINTS);
   record_take(&record, block);
   f->touched += touched_inputs(block, f->which[1], sizeof f->which[1]);
   count_writes(block, work, BLOCK_POINTS, &f->left, &f->beyond, f->which[2], sizeof f->which[2]);
@@ -328,6 +339,8 @@ void prove_work(struct block *block, const struct work *work)
   check_figure(checks, (double)f.blocks, 0, "%s: points with other bits in blocks of 1, 7 and 64",
                work->label);
   check_figure(checks, (double)f.touched, 0, "%s: inputs written%s", work->label, f.which[1]);
+  check_figure(checks, (double)f.arithmetic, 0,
+               "%s: calls that change rounding, flushing or traps", work->label);
   check_figure(checks, (double)(f.left), 0, "%s: outputs left unwritten%s", work->label,
                f.left ? f.which[2] : "");
   check_figure(checks, (double)(f.beyond), 0, "%s: values written beyond the block or undeclared%s",

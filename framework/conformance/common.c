@@ -90,6 +90,7 @@ void prove_common(struct proof *proof, bool based)
   const struct descriptor *d = proof->descriptor;
   check_begin(&proof->checks, "the descriptor");
   prove_descriptor(proof);
+  prove_object(proof);
   if (!based)
     return;
   check_begin(&proof->checks, "refusals");

@@ -57,9 +57,12 @@ struct path {
   struct suite *suite;
   struct block *block;
   kernel_function function;
-  size_t gradient, step, stress; /* slots */
+  size_t gradient, step, stress, begin; /* slots */
+  double ratio; /* of the volume, by the deformation */
   bool stopped;
   double least_growth, least_dissipation; /* of plastic strain and of its work, over all steps */
+  double work, gross;      /* of the stress, and the sum of its sizes */
+  double dissipated, flow; /* said by the law; flow stress times plastic strain */
 };
 
 static const double duration = 1e-6;
@@ -72,6 +75,7 @@ static bool path_new(struct path *path, struct suite *suite)
   path->gradient = slot_named(proof, SLOT_INPUT, "velocity_gradient");
   path->step = slot_named(proof, SLOT_INPUT, "time_step");
   path->stress = slot_named(proof, SLOT_STATE_END, "stress");
+  path->begin = path->stress - 6;
   return path->function && path->gradient != SIZE_MAX && path->stress != SIZE_MAX;
 }
 
@@ -90,6 +94,11 @@ static double input_start(const struct proof *proof, const struct slot *slot,
   return strcmp(slot->name, "temperature") == 0 ? 298 : 0;
 }
 
+static double *value_of(const struct path *path, size_t slot)
+{
+  return &path->block->array[slot][0];
+}
+
 static void path_reset(struct path *path)
 {
   const struct proof *proof = path->suite->proof;
@@ -98,11 +107,42 @@ static void path_reset(struct path *path)
       path->block->array[s][0] = input_start(proof, &proof->slot[s], path->suite);
   path->stopped = false;
   path->least_growth = path->least_dissipation = INFINITY;
+  path->work = path->gross = path->dissipated = path->flow = 0;
+  path->ratio = 1;
 }
 
-static double *value_of(const struct path *path, size_t slot)
+/* Work of a stress over an increment of the deformation, per reference volume: J stress : d. */
+static double work_of(const double stress[6], const matrix d, double ratio)
 {
-  return &path->block->array[slot][0];
+  static const int place[6] = {0, 4, 8, 1, 5, 6}, mirror[6] = {0, 4, 8, 3, 7, 2};
+  double sum = 0;
+  for (int k = 0; k < 6; k++)
+    sum += stress[k] * (k < 3 ? d[place[k]] : d[place[k]] + d[mirror[k]]);
+  return ratio * sum;
+}
+
+/* Adds the step's works: of the mean stress over the strain of the mid-configuration. */
+static void add_work(struct path *path, const double before[6], const matrix f, double ratio)
+{
+  matrix middle, back, d;
+  double after[6], increment[9];
+  for (int k = 0; k < 9; k++) {
+    increment[k] = f[k] - (k % 4 == 0);
+    middle[k] = 0.5 * (f[k] + (k % 4 == 0));
+  }
+  invert(middle, back);
+  multiply(increment, back, d);
+  for (int k = 0; k < 6; k++)
+    after[k] = 0.5 * (before[k] + *value_of(path, path->stress + (size_t)k));
+  const double work = work_of(after, d, ratio * determinant(middle));
+  path->work += work;
+  path->gross += fabs(work);
+}
+
+/* Of the law that laws_new takes. */
+static double standard_flow_stress(double plastic_strain)
+{
+  return 90e6 + 300e6 * plastic_strain;
 }
 
 /* One step by the increment f: F at its end is f times F at its beginning. */
@@ -111,11 +151,16 @@ static void path_step(struct path *path, const matrix f, double step)
   const struct proof *proof = path->suite->proof;
   size_t strain = slot_named(proof, SLOT_STATE_END, "plastic_strain");
   size_t work = slot_named(proof, SLOT_OUTPUT, "plastic_dissipation");
+  double before[6], grown = 0;
+  for (size_t k = 0; k < 6; k++)
+    before[k] = *value_of(path, path->begin + k);
   for (size_t k = 0; k < 9; k++)
     *value_of(path, path->gradient + k) = (f[k] - (k % 4 == 0)) / step;
   if (path->step != SIZE_MAX)
     *value_of(path, path->step) = step;
   bench_call(path->suite->bench, path->function, 1);
+  add_work(path, before, f, path->ratio);
+  path->ratio *= determinant(f);
   path->stopped |= status_severity(bench_status(path->suite->bench)[0]) == GAMUT_STOP;
   for (size_t s = 0; s < proof->slots; s++) {
     const struct slot *slot = &proof->slot[s];
@@ -123,11 +168,17 @@ static void path_step(struct path *path, const matrix f, double step)
       continue;
     size_t end = s + slot->components;
     if (end == strain)
-      path->least_growth = fmin(path->least_growth, *value_of(path, end) - *value_of(path, s));
+      grown = *value_of(path, end) - *value_of(path, s);
     *value_of(path, s) = *value_of(path, end);
   }
   if (work != SIZE_MAX)
     path->least_dissipation = fmin(path->least_dissipation, *value_of(path, work));
+  if (strain != SIZE_MAX)
+    path->least_growth = fmin(path->least_growth, grown);
+  if (strain != SIZE_MAX)
+    path->flow += path->ratio * standard_flow_stress(*value_of(path, strain)) * grown;
+  if (work != SIZE_MAX)
+    path->dissipated += *value_of(path, work);
 }
 
 static void path_stress(const struct path *path, matrix stress)
@@ -265,6 +316,34 @@ static void prove_dissipation(struct path *path)
     check_least(checks, path->least_dissipation, 0, "plastic work of a step, J/m3");
 }
 
+/* The energy grows by the work of the stress, whatever flows: heat stays in the point. What the law
+ * calls plastic work is its flow stress over the plastic strain. */
+static void prove_energy(struct path *path)
+{
+  const struct proof *proof = path->suite->proof;
+  struct checks *checks = &path->suite->proof->checks;
+  size_t energy = slot_named(proof, SLOT_STATE_END, "energy");
+  size_t dissipation = slot_named(proof, SLOT_OUTPUT, "plastic_dissipation");
+  double off[2] = {0}, plastic[2] = {0};
+  check_begin(checks, "energy along a path into plastic flow and back");
+  for (int k = 0; k < 2; k++) {
+    follow(path, (size_t)(400 << k), true, unity, 0);
+    if (energy != SIZE_MAX)
+      off[k] = fabs(*value_of(path, energy) - path->work) / path->gross;
+    if (dissipation != SIZE_MAX && path->flow > 0)
+      plastic[k] = fabs(path->dissipated - path->flow) / path->flow;
+  }
+  /* Errors of the steps fall with their number; counted twice stays twice. */
+  if (energy != SIZE_MAX)
+    check_figure(checks, off[1], fmax(0.6 * off[0], 1e-6),
+                 "energy less the work of the stress, relative (%.2g in half the steps)", off[0]);
+  if (energy != SIZE_MAX)
+    check_figure(checks, off[1], 0.01, "energy less the work of the stress, relative");
+  if (dissipation != SIZE_MAX && path->flow > 0)
+    check_figure(checks, plastic[1], 0.01,
+                 "plastic_dissipation less flow stress times plastic strain, relative");
+}
+
 static void prove_volume(struct path *path)
 {
   struct proof *proof = path->suite->proof;
@@ -342,11 +421,13 @@ void prove_elasticity(struct proof *proof)
   struct path path;
   if (suite_new(&suite, proof)) {
     suite_work(&suite, 0, "stress");
+    prove_threads(&suite, kernel_operation(suite.specimen.kernel, 0));
     if (check_that(&proof->checks, path_new(&path, &suite),
                    "velocity_gradient is an input and stress a state")) {
       prove_rotations(&path);
       prove_still(&path);
       prove_dissipation(&path);
+      prove_energy(&path);
       prove_volume(&path);
       prove_order(&path);
       prove_imposed(&path);

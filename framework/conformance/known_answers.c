@@ -251,7 +251,7 @@ static void prove_one(struct proof *proof, const struct tree *test, size_t numbe
     set_inputs(&a);
     kernel_function function = function_called(&a);
     if (function)
-      bench_call(a.bench, function, 1);
+      bench_call_kept(a.bench, function, 1);
     else
       broken(&a, "no such operation for", title);
     fits = status_fits(&a, &got, &want);
@@ -287,9 +287,14 @@ void prove_known_answers(struct proof *proof)
                 proof->descriptor->kind == GAMUT_KIND_STRENGTH ||
                 proof->descriptor->kind == GAMUT_KIND_ELASTICITY ||
                 (proof->descriptor->kind == GAMUT_KIND_EFFECT && proof->descriptor->tasks > 0);
-  if ((kernel || proof->descriptor->kind == GAMUT_KIND_EFFECT) && (!tests || !tests->children))
-    check_skip(&proof->checks, "no tests", "known answers of %s.test.yaml",
-               proof->descriptor->name);
+  bool effect = proof->descriptor->kind == GAMUT_KIND_EFFECT;
+  if (effect && (!tests || !tests->children))
+    check_skip(&proof->checks, "no known answer: what it computes is unproven",
+               "known answers of %s.test.yaml", proof->descriptor->name);
+  else if (kernel || effect)
+    check_that(&proof->checks, tests && tests->children > 0,
+               "%s.test.yaml has a known answer%s", proof->descriptor->name,
+               tests && tests->children > 0 ? "" : ": no known answer: formula unproven");
   for (size_t i = 0; kernel && tests && i < tests->children; i++)
     if (!is_scene_test(tests->child[i]))
       prove_one(proof, tests->child[i], i + 1);

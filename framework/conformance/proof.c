@@ -102,7 +102,7 @@ static void base_vector(struct settings *settings, const struct parameter *p)
   settings_put(settings, p->name, text);
 }
 
-static void base_of_table(const struct descriptor *d, const struct parameter *parameter,
+void base_of_table(const struct descriptor *d, const struct parameter *parameter,
                           size_t count, struct settings *settings)
 {
   for (size_t i = 0; i < count; i++) {

@@ -32,6 +32,9 @@ double draw_between(struct proof *, double lower, double upper);
  * middle of its ranges. False if none was found; `why` gets the refusal. */
 bool find_base(const struct descriptor *, const struct tree *known, const struct units *,
                struct settings *, char *why, size_t size);
+/* Values for the parameters of a table that need one, put into the settings. */
+void base_of_table(const struct descriptor *, const struct parameter *, size_t count,
+                   struct settings *);
 /* The range that draws of a parameter come from: its fit, else around the base value. */
 void draw_range(const struct parameter *, double base, double *lower, double *upper);
 /* Draws every real parameter; corner 0 draws inside, 1 takes all low ends, 2 all high ends, 3 and
@@ -48,6 +51,7 @@ struct span span_of(const char *name);
 
 /* The suites. Each is called after the common one, with the shared object open. */
 void prove_common(struct proof *, bool based); /* based: base parameters were found */
+void prove_object(struct proof *);
 void prove_known_answers(struct proof *);
 void prove_eos(struct proof *);
 void prove_strength(struct proof *);
@@ -78,6 +82,8 @@ void block_draw(struct block *, size_t round);
 /* Fills outputs with a mark that no computation gives, statuses with 0. */
 void block_mark(struct block *);
 bool is_mark(double);
+/* Calls a kernel; whether it left rounding, flushing and traps alone. They are put back. */
+bool bench_call_kept(struct bench *, kernel_function, size_t count);
 
 /* What a kernel must write: all outputs, or those that its task names. */
 struct work {

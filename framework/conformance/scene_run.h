@@ -17,6 +17,8 @@ char *plugin_file(const struct descriptor *, const char *name);
 void scene_run_make(struct scene_run *, struct proof *, const char *file,
                     const struct scene_override *, size_t overrides, int threads);
 void scene_run_free(struct scene_run *);
+/* Asks for every measure that the plugin of a run declares, and for one that it does not. */
+void prove_measures(struct proof *, struct gamut_run *);
 
 /* The tests of NAME.test.yaml that run a scene. */
 void prove_scene_answers(struct proof *);

@@ -54,6 +54,8 @@ static void run_scene(struct proof *proof, const char *file, int threads, struct
     keep_histories(outcome, made.run);
     keep_ledger(outcome, made.run);
     outcome->steps = run_cost_of(made.run).steps;
+    if (threads == 1)
+      prove_measures(proof, made.run);
   }
   scene_run_free(&made);
 }

@@ -69,6 +69,8 @@ void prove_strength(struct proof *proof)
     prove_slopes(proof, &suite.block, function);
     if (proof->descriptor->inverse)
       prove_inverse(proof, &suite.block, function, kernel_operation(suite.specimen.kernel, 1));
+    prove_dependence(&suite);
+    prove_threads(&suite, function);
     suite_derivatives(&suite, 2);
   }
   suite_free(&suite);

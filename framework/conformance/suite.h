@@ -19,6 +19,10 @@ void suite_free(struct suite *);
 void suite_work(struct suite *, size_t operation, const char *label);
 /* Every variant agrees with the whole formula where its condition holds. */
 void suite_variants(struct suite *);
+/* What a law depends on: slopes, jumps, parameters without influence. */
+void prove_dependence(struct suite *);
+/* Two threads in one kernel at once. */
+void prove_threads(struct suite *, kernel_function);
 /* Derivatives by parameters; `operation` is the number of the plugin's own. */
 void suite_derivatives(struct suite *, size_t operation);
 

@@ -101,6 +101,7 @@ struct parameter {
   enum value_type type;
   const struct tree *standard; /* the default as written, or null */
   bool optional, random;
+  bool elsewhere; /* not for the law's kernels: a solver reads it */
   struct range fit, physical, usual;
   size_t size_min, size_max;   /* of a vector */
   const char **choice;         /* names of a choice, variables of an expression, table columns */

@@ -28,6 +28,7 @@ static const struct {
     {"usual", RANGED},
     {"physical", RANGED},
     {"random", BIT(VALUE_REAL)},
+    {"elsewhere", BIT(VALUE_REAL)},
     {"size", BIT(VALUE_VECTOR)},
     {"choices", BIT(VALUE_CHOICE)},
     {"variables", BIT(VALUE_EXPRESSION)},
@@ -279,6 +280,7 @@ static void read_parameter(struct reader *reader, const struct tree *node, bool 
   parameter->source = read_text(reader, node, "source", false);
   parameter->optional = read_flag(reader, node, "optional", false);
   parameter->random = read_flag(reader, node, "random", false);
+  parameter->elsewhere = read_flag(reader, node, "elsewhere", false);
   read_by_type(reader, node, parameter);
   read_range(reader, node, "fit", parameter, &parameter->fit);
   read_range(reader, node, "physical", parameter, &parameter->physical);

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "registry/elf.h"
 #include "registry/guard.h"
 #include "registry/inside.h"
 
@@ -80,8 +81,7 @@ static bool find_object(struct entry *entry, struct trace *trace, char *file, si
   return false;
 }
 
-/* What a plugin must leave alone: rounding, flushing of small numbers, traps. */
-static bool same_arithmetic(const fenv_t *before, const fenv_t *after)
+bool same_arithmetic(const fenv_t *before, const fenv_t *after)
 {
 #if defined(__x86_64__)
   /* Bits 0 to 5 of MXCSR only say what has happened. */
@@ -274,6 +274,32 @@ static gamut_status check_operations(struct entry *entry, const char *file, cons
   return GAMUT_OK;
 }
 
+/* Calls that end or replace the program where nothing can tell whose they were. exit() and abort()
+ * are named when they happen. */
+static void take_ending(void *self, const char *name)
+{
+  static const char *const ending[] = {"_exit",  "_Exit", "quick_exit", "execv",   "execve",
+                                       "execvp", "execl", "execlp",     "syscall", "vfork"};
+  const char **found = self;
+  for (size_t i = 0; i < sizeof ending / sizeof ending[0]; i++)
+    if (strcmp(name, ending[i]) == 0)
+      *found = ending[i];
+}
+
+static gamut_status check_object(struct entry *entry, const char *file, struct trace *trace)
+{
+  struct elf_file elf;
+  const char *ending = NULL;
+  if (!elf_read(&elf, file))
+    return refuse(entry, trace, "its shared object cannot be loaded: '%s': %s", file, elf.why);
+  elf_imports(&elf, take_ending, &ending);
+  elf_free(&elf);
+  if (ending)
+    return refuse(entry, trace, "'%s' calls %s(), by which a plugin would end the program", file,
+                  ending);
+  return GAMUT_OK;
+}
+
 static gamut_status open_entry(struct registry *registry, struct entry *entry, struct trace *trace)
 {
   const struct descriptor *d = entry->descriptor;
@@ -287,6 +313,7 @@ static gamut_status open_entry(struct registry *registry, struct entry *entry, s
   if (stat(file, &info) == 0 && (info.st_mode & S_IWOTH))
     return refuse(entry, trace, "everybody may write to '%s'; take that right away (chmod o-w)",
                   file);
+  TRY(check_object(entry, file, trace));
   TRY(load_unchanged(registry, entry, file, trace, &handle));
   snprintf(symbol, sizeof symbol, "%s_LTX_gamut_plugin", d->name);
   const struct gamut_plugin *plugin = lt_dlsym(handle, symbol);
@@ -330,6 +357,19 @@ gamut_status registry_open(struct registry *registry, const struct descriptor *d
 #pragma omp critical(gamut_registry)
   status = open_once(registry, descriptor, trace, plugin);
   return status;
+}
+
+bool registry_object(const struct registry *registry, const struct descriptor *descriptor,
+                     char *file, size_t size)
+{
+  struct entry *entry = registry_entry(registry, descriptor);
+  struct trace *silent = trace_new();
+  const char *level = entry ? entry->level : NULL;
+  bool found = entry && silent && find_object(entry, silent, file, size);
+  if (entry)
+    entry->level = level;
+  trace_free(silent);
+  return found;
 }
 
 const char *registry_level(const struct registry *registry, const struct descriptor *descriptor)

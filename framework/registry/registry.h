@@ -3,6 +3,8 @@
 #ifndef GAMUT_REGISTRY_H
 #define GAMUT_REGISTRY_H
 
+#include <fenv.h>
+
 #include <gamut/plugin.h>
 
 #include "descriptor/descriptor.h"
@@ -62,8 +64,12 @@ gamut_status registry_add(struct registry *, const char *path, struct trace *,
  * (baseline, v3 or v4) sets the highest level to take. */
 gamut_status registry_open(struct registry *, const struct descriptor *, struct trace *,
                            const struct gamut_plugin **);
+/* What a plugin must leave alone: rounding, flushing of small numbers, traps. */
+bool same_arithmetic(const fenv_t *before, const fenv_t *after);
 /* Instruction-set level that was picked ("x86-64-v4", "baseline"); null if not opened. */
 const char *registry_level(const struct registry *, const struct descriptor *);
+/* The file that was opened, or would be; false if there is none. */
+bool registry_object(const struct registry *, const struct descriptor *, char *file, size_t size);
 bool registry_is_open(const struct registry *, const struct descriptor *);
 /* Prints where was looked, what was skipped and why, what is shadowed. */
 void registry_paths(const struct registry *, FILE *);

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "registry/guard.h"
-#include "run/inside.h"
+#include "run/host.h"
 
 static struct running_effect *effect_called(struct gamut_run *run, const char *name)
 {
@@ -217,6 +217,42 @@ static double at_place(const struct gamut_run *run, struct probe *probe)
   return count > 0.0 ? sum / count : NAN;
 }
 
+/* Who gives a measure: an effect, or null for the solver. */
+static const char *provider_id(const struct gamut_run *run, const struct running_effect *effect)
+{
+  return effect ? effect->effect->instance.descriptor->id : run->scene->solver.descriptor->id;
+}
+
+static gamut_status call_measure(struct gamut_run *run, const struct running_effect *effect,
+                                 const char *name, const struct gamut_body *body,
+                                 const struct values *arguments, double *value)
+{
+  gamut_status (*measure)(void *, const char *, const struct gamut_body *,
+                          const struct gamut_values *, double *) =
+      effect ? effect->ops->measure : run->solver->measure;
+  if (!measure)
+    return trace_fail(run->trace, GAMUT_PLUGIN,
+                      "the measure '%s' is declared, but its plugin has no operation `measure`",
+                      name);
+  return GUARDED(provider_id(run, effect),
+                 measure(effect ? effect->self : run->solver_self, name, body, arguments, value));
+}
+
+gamut_status run_measure(struct gamut_run *run, const struct descriptor *plugin, const char *name,
+                         struct values *arguments, double *value, struct trace *trace)
+{
+  const struct running_effect *effect = NULL;
+  run->trace = trace;
+  for (size_t i = 0; i < run->effects && plugin != run->scene->solver.descriptor; i++)
+    if (run->effect[i].effect->instance.descriptor == plugin && run->effect[i].created)
+      effect = &run->effect[i];
+  if (!effect && plugin != run->scene->solver.descriptor)
+    return trace_fail(trace, GAMUT_SCENE, "%s is not in this run", plugin->id);
+  host_of_values(arguments, &run_host);
+  return call_measure(run, effect, name, run->scene->bodies ? &run->scene->body[0] : NULL,
+                      arguments, value);
+}
+
 static gamut_status probe_value(struct gamut_run *run, struct probe *probe,
                                 const struct measure *measure, double *value)
 {
@@ -226,21 +262,13 @@ static gamut_status probe_value(struct gamut_run *run, struct probe *probe,
     return GAMUT_OK;
   }
   const struct gamut_body *body = q->body >= 0 ? &run->scene->body[q->body] : NULL;
-  if (probe->effect ? probe->effect->ops->measure : run->solver->measure) {
-    run->measuring = q;
-    guard_push(probe->effect ? probe->effect->effect->instance.descriptor->id
-                             : run->scene->solver.descriptor->id);
-    gamut_status status = guard_pop(
-        probe->effect
-            ? probe->effect->ops->measure(probe->effect->self, measure->name, body, q->arguments,
-                                          value)
-            : run->solver->measure(run->solver_self, measure->name, body, q->arguments, value));
-    run->measuring = NULL;
-    return status;
-  }
-  return trace_fail(run->trace, GAMUT_PLUGIN,
-                    "the measure '%s' is declared, but its plugin has no operation `measure`",
-                    measure->name);
+  run->measuring = q;
+  gamut_status status = call_measure(run, probe->effect, measure->name, body, q->arguments, value);
+  run->measuring = NULL;
+  if (status == GAMUT_PLUGIN && trace_errors(run->trace) == 0)
+    trace_fail(run->trace, GAMUT_PLUGIN, "%s declares the measure '%s' and does not know it",
+               provider_id(run, probe->effect), measure->name);
+  return status;
 }
 
 /* A point that leaves the run takes its history along: the last sample is the last value known. */

@@ -84,4 +84,9 @@ const struct ledger_line *run_ledger(const struct gamut_run *, size_t *count);
 /* Residual of an account now, and its scale: the largest figure of any account of that unit. */
 double run_ledger_residual(const struct gamut_run *, const char *account, double *scale);
 
+/* Asks a plugin of the run for a measure of its first body, by any name (for conformance). The run
+ * must have started. */
+gamut_status run_measure(struct gamut_run *, const struct descriptor *plugin, const char *name,
+                         struct values *arguments, double *value, struct trace *);
+
 #endif

@@ -117,9 +117,14 @@ static gamut_status measure(void *self, const char *name, const struct gamut_bod
   (void)body;
   (void)arguments;
   const struct erosion_effect *e = self;
-  *value = strcmp(name, "eroded_mass") == 0     ? e->gone->mass
-           : strcmp(name, "eroded_energy") == 0 ? e->gone->kinetic + e->gone->internal
-                                                : e->gone->points;
+  if (strcmp(name, "eroded_mass") == 0)
+    *value = e->gone->mass;
+  else if (strcmp(name, "eroded_energy") == 0)
+    *value = e->gone->kinetic + e->gone->internal;
+  else if (strcmp(name, "eroded_points") == 0)
+    *value = e->gone->points;
+  else
+    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
   return GAMUT_OK;
 }
 

@@ -89,8 +89,10 @@ static gamut_status measure(void *self, const char *name, const struct gamut_bod
     *value = left->momentum[gamut_text(arguments, "axis")[0] - 'x'];
   else if (strcmp(name, "left_energy") == 0)
     *value = left->kinetic + left->internal;
-  else
+  else if (strcmp(name, "left_points") == 0)
     *value = left->points;
+  else
+    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
   return GAMUT_OK;
 }
 

@@ -159,7 +159,10 @@ gamut_status measure_bar(void *self, const char *name, const struct gamut_body *
     }
   if (strcmp(name, "level_strain") == 0 || strcmp(name, "level_stress") == 0)
     *value = level_value(bar, strcmp(name, "level_strain") == 0, gamut_integer(arguments, "level"));
-  else
+  else if (strcmp(name, "n_prime") == 0 || strcmp(name, "n_prime_true") == 0 ||
+           strcmp(name, "K_prime") == 0 || strcmp(name, "K_prime_true") == 0)
     *value = hardening(bar, name, arguments);
+  else
+    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
   return GAMUT_OK;
 }

@@ -194,10 +194,13 @@ static gamut_status measure(void *self, const char *name, const struct gamut_bod
     *value = point->work;
     return GAMUT_OK;
   }
+  const bool strain_asked = strcmp(name, "log_strain") == 0;
+  if (!strain_asked && strcmp(name, "engineering_strain") != 0)
+    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
   while (strcmp(component[c], gamut_text(arguments, "component")) != 0)
     c++;
   log_strain(point->H, strain);
-  if (strcmp(name, "log_strain") == 0)
+  if (strain_asked)
     *value = strain[c];
   else
     *value = point->H[place[c]] + (c < NORMALS ? 0.0 : point->H[mirror[c]]);

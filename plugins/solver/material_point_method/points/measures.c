@@ -290,7 +290,9 @@ gamut_status measure_value(struct model *m, const char *name, const struct gamut
     *value = total(&c, MOMENTUM, axis_of(arguments)) / total(&c, MASS, 0);
   else if (strcmp(name, "kinetic_energy") == 0)
     *value = total(&c, KINETIC, 0);
-  else
+  else if (strcmp(name, "internal_energy") == 0)
     *value = total(&c, INTERNAL, 0);
+  else
+    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
   return GAMUT_OK;
 }
