@@ -160,7 +160,7 @@ static void write_ledger(json_t *ledger, FILE *file)
     first = false;
   }
   if (!first)
-    fprintf(file, " of the largest part\n");
+    fprintf(file, " of what went through\n");
 }
 
 /* "  pressure up to 16.2 GPa": a curve in a row of the levels. */

@@ -61,14 +61,15 @@ static gamut_status put_ledger(const struct writing *w)
 {
   gamut_status status;
   size_t lines = w->run->lines;
-  double *value = calloc(2 * lines + 1, sizeof *value);
+  double *value = calloc(3 * lines + 1, sizeof *value);
   if (!value)
     return trace_fail(w->run->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t i = 0; i < lines; i++) {
-    value[2 * i] = w->run->ledger[i].start;
-    value[2 * i + 1] = *w->run->line_value[i];
+    value[3 * i] = w->run->ledger[i].start;
+    value[3 * i + 1] = *w->run->line_value[i];
+    value[3 * i + 2] = w->run->ledger[i].turnover;
   }
-  status = put(w, "ledger", CHECKPOINT_REAL, value, 2 * lines);
+  status = put(w, "ledger", CHECKPOINT_REAL, value, 3 * lines);
   free(value);
   return status;
 }

@@ -127,6 +127,12 @@ static double host_body_density(const struct gamut_run *run, const struct gamut_
   return run->scene->material[body->material].density;
 }
 
+static const char *host_body_strength(const struct gamut_run *run, const struct gamut_body *body)
+{
+  const struct descriptor *d = run->scene->material[body->material].strength.descriptor;
+  return d ? d->name : NULL;
+}
+
 static gamut_status host_points(struct gamut_run *run, const struct gamut_body *body, size_t points,
                                 struct gamut_set **set)
 {
@@ -329,4 +335,5 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .removal = host_removal,
                                     .drop = host_drop,
                                     .fail_plane = host_fail_plane,
-                                    .count = work_open};
+                                    .count = work_open,
+                                    .body_strength = host_body_strength};

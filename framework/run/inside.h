@@ -116,6 +116,7 @@ struct gamut_run {
   struct ledger_line *ledger;
   size_t lines, line_capacity;
   double **line_value;              /* what plugins write to */
+  struct balance *balance;          /* of the account that a line is the first of */
   struct work_count *count;         /* of the solver, a list */
 
   struct probe *probe;

@@ -93,13 +93,14 @@ done:
 static gamut_status get_ledger(const struct reading_back *r)
 {
   size_t lines = r->run->lines;
-  double *value = calloc(2 * lines + 1, sizeof *value);
+  double *value = calloc(3 * lines + 1, sizeof *value);
   if (!value)
     return trace_fail(r->run->trace, GAMUT_INTERNAL, "out of memory");
-  gamut_status status = fill(r, "ledger", CHECKPOINT_REAL, value, 2 * lines);
+  gamut_status status = fill(r, "ledger", CHECKPOINT_REAL, value, 3 * lines);
   for (size_t i = 0; i < lines && status == GAMUT_OK; i++) {
-    r->run->ledger[i].start = value[2 * i];
-    r->run->ledger[i].value = *r->run->line_value[i] = value[2 * i + 1];
+    r->run->ledger[i].start = value[3 * i];
+    r->run->ledger[i].value = *r->run->line_value[i] = value[3 * i + 1];
+    r->run->ledger[i].turnover = value[3 * i + 2];
   }
   free(value);
   return status;

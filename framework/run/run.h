@@ -79,9 +79,11 @@ char *run_explain_json(struct gamut_run *);
 
 struct ledger_line {
   char *account, *name, *unit; enum gamut_ledger_role role; double value, start;
+  double turnover; /* what it began with, and all its changes from step to step */
+  size_t first, alike; /* numbers of the first line of its account, and of its unit */
 };
 const struct ledger_line *run_ledger(const struct gamut_run *, size_t *count);
-/* Residual of an account now, and its scale: the largest figure of any account of that unit. */
+/* Residual of an account now, and its scale: the largest turnover of any line of that unit. */
 double run_ledger_residual(const struct gamut_run *, const char *account, double *scale);
 
 /* Asks a plugin of the run for a measure of its first body, by any name (for conformance). The run

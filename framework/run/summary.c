@@ -90,6 +90,7 @@ static json_t *account_json(const struct gamut_run *run, const char *account)
   }
   json_object_set_new(entry, "lines", lines);
   json_object_set_new(entry, "residual", number(residual));
+  json_object_set_new(entry, "scale", number(scale));
   json_object_set_new(entry, "relative_residual", number(scale > 0.0 ? residual / scale : 0.0));
   return entry;
 }

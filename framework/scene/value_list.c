@@ -11,8 +11,8 @@ double *vector_read(struct reading *reading, const struct tree *node, const char
   if (!unit_is_pure(unit))
     snprintf(example, sizeof example, "%s", unit_example(unit));
   if (least == most)
-    snprintf(expected, sizeof expected, "%zu numbers in brackets, such as [%s%s]", least, example,
-             least > 1 ? ", ..." : "");
+    snprintf(expected, sizeof expected, "%zu number%s in brackets, such as [%s%s]", least,
+             least > 1 ? "s" : "", example, least > 1 ? ", ..." : "");
   else
     snprintf(expected, sizeof expected, "%zu to %zu numbers in brackets, such as [%s, ...]", least,
              most, example);

@@ -66,12 +66,12 @@ static bool integer_read(struct reading *reading, const struct parameter *parame
 static bool numbers_read(struct reading *reading, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
-  size_t most = parameter->size_max;
+  size_t least = parameter->size_min, most = parameter->size_max;
   bool spatial = reading->axes > 0 && parameter->size_min == 1 && parameter->size_max == 3;
   if (spatial && node != parameter->standard)
-    most = reading->axes; /* a vector of space has no more components than the geometry */
-  value->number = vector_read(reading, node, parameter->name, parameter->unit, parameter->size_min,
-                              most, &value->numbers);
+    least = most = reading->axes; /* a vector of space has the components that the geometry has */
+  value->number = vector_read(reading, node, parameter->name, parameter->unit, least, most,
+                              &value->numbers);
   bool fine = value->number != NULL;
   for (size_t i = 0; fine && i < value->numbers; i++)
     fine = range_check(reading, parameter, node->child[i], value->number[i]);

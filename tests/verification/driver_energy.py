@@ -1,10 +1,9 @@
 """Energy and pressure together: an eos that is not linear in energy; cycles that must close."""
 import math
 import os
-import shlex
-import subprocess
 from decimal import Decimal
 
+import made
 import scenes
 from laws import apart, drive, eliminate, linear_eos, material, order, rows, von_mises
 
@@ -20,21 +19,9 @@ EOS = {"model": "quadratic_energy", "K": f"{K!r} Pa", "g": GAMMA, "q": f"{CURVE!
 def build():
     """Builds the eos as a stranger would; returns the folder of plugins."""
     source = os.path.join(scenes.TREE, "tests/plugins/eos/quadratic_energy/quadratic_energy")
-    folder = os.path.join(scenes.SCRATCH, "plugins")
-    home = os.path.join(folder, "eos/quadratic_energy")
-    os.makedirs(home)
-    with open(source + ".yaml", encoding="utf-8") as text, \
-            open(os.path.join(home, "quadratic_energy.yaml"), "w", encoding="utf-8") as copy:
-        copy.write(text.read())
-    header = subprocess.run([scenes.GAMUT, "header", os.path.join(home, "quadratic_energy.yaml")],
-                            capture_output=True, text=True, check=True).stdout
-    with open(os.path.join(home, "quadratic_energy.gamut.h"), "w", encoding="utf-8") as file:
-        file.write(header)
-    subprocess.run([*shlex.split(os.environ.get("CC", "cc")), "-std=gnu11", "-O2", "-fPIC",
-                    "-fopenmp-simd", "-shared", "-I", home,
-                    "-I", os.path.join(scenes.TREE, "framework/include"), "-o",
-                    os.path.join(home, "quadratic_energy.so"), source + ".c", "-lm"], check=True)
-    return folder
+    with open(source + ".yaml", encoding="utf-8") as described, \
+            open(source + ".c", encoding="utf-8") as code:
+        return made.plugin("eos/quadratic_energy", described.read(), code.read())
 
 
 def pressure(mu, e):

@@ -121,6 +121,11 @@ def run(name, changes=None, threads=1, extra=()):
     process, folder = attempt(name, changes, threads, extra)
     if process.returncode != 0:
         raise Failed(process.returncode, process.stderr[-2000:])
+    return read(folder, process)
+
+
+def read(folder, process):
+    """What a finished run left."""
     with open(os.path.join(folder, "summary.json"), encoding="utf-8") as text:
         return Result(folder, json.load(text), process.stderr)
 

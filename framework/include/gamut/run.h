@@ -8,6 +8,7 @@
 #ifndef GAMUT_RUN_H
 #define GAMUT_RUN_H
 
+#include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -326,6 +327,9 @@ struct gamut_host {
   /* Opens a count of work ("sorts") for `cost.work` of the summary, which the plugin adds to; null
    * when there is no memory. Counts must not depend on threads. In create; the name is borrowed. */
   uint64_t *(*count)(struct gamut_run *, const char *name);
+
+  /* Name of the strength of the body's material ("von_mises"); null where it has none. */
+  const char *(*body_strength)(const struct gamut_run *, const struct gamut_body *);
 };
 
 /* Every run begins with its host; the rest is the core's. */
@@ -368,6 +372,38 @@ static inline const double *gamut_table(const struct gamut_values *v, const char
                                         size_t *rows)
 {
   return GAMUT_HOST(v)->table(v, path, rows);
+}
+
+/* The vector at `path` with three components: those that the geometry lacks are 0. */
+static inline void gamut_space_vector(const struct gamut_values *v, const char *path, double to[3])
+{
+  size_t count;
+  const double *from = gamut_vector(v, path, &count);
+  for (size_t k = 0; k < 3; k++)
+    to[k] = k < count ? from[k] : 0.0;
+}
+
+/* Point and unit normal of a plane, from a group `plane` with vectors `point` and `normal`. It may
+ * have any length but none; `expected` says in an error where it shall point. */
+static inline gamut_status gamut_read_plane(struct gamut_run *run, const struct gamut_values *v,
+                                            const char *expected, double point[3],
+                                            double normal[3])
+{
+  double largest = 0.0, square = 0.0;
+  gamut_space_vector(v, "plane.point", point);
+  gamut_space_vector(v, "plane.normal", normal);
+  for (int k = 0; k < 3; k++)
+    largest = fmax(largest, fabs(normal[k]));
+  if (!(largest > 0.0))
+    return gamut_fail_at(run, v, "plane.normal", expected, "the normal has no length");
+  /* by the largest component first: a square must not overflow or vanish */
+  for (int k = 0; k < 3; k++) {
+    normal[k] /= largest;
+    square += normal[k] * normal[k];
+  }
+  for (int k = 0; k < 3; k++)
+    normal[k] /= sqrt(square);
+  return GAMUT_OK;
 }
 
 /* The rest is called as GAMUT_HOST(run)->NAME(run, ...); short names for what solvers use most: */

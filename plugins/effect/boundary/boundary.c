@@ -10,14 +10,6 @@ struct boundary_effect {
   struct gamut_field position, volume, ratio, force;
 };
 
-static void copy(const struct gamut_values *values, const char *path, double to[3])
-{
-  size_t count = 0;
-  const double *from = gamut_vector(values, path, &count);
-  for (size_t k = 0; k < count && k < 3; k++)
-    to[k] = from[k];
-}
-
 static gamut_status pull(void *self, const struct gamut_chunk *chunk)
 {
   const struct boundary_effect *b = self;
@@ -51,7 +43,7 @@ static gamut_status add_traction(struct gamut_run *run, const struct gamut_value
   if (!gamut_given(values, "traction") || !gamut_given(values, "depth"))
     return gamut_fail_at(run, values, gamut_given(values, "traction") ? "depth" : "traction",
                          "traction: [..] and depth:", "a traction needs both");
-  copy(values, "traction", b->traction);
+  gamut_space_vector(values, "traction", b->traction);
   b->depth = gamut_real(values, "depth");
   for (int k = 0; k < 4; k++) {
     const gamut_status status = gamut_field_named(run, name[k], field[k]);
@@ -76,24 +68,21 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   if (b == NULL)
     return GAMUT_INTERNAL;
   b->run = run;
-  copy(values, "plane.point", b->plane.point);
-  copy(values, "plane.normal", b->plane.normal);
   b->plane.normal_rule = symmetry ? GAMUT_PLANE_MIRROR : GAMUT_PLANE_PRESCRIBED;
   b->plane.tangential_rule = symmetry ? GAMUT_PLANE_MIRROR : GAMUT_PLANE_PRESCRIBED;
-  const double *n = b->plane.normal, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  for (int k = 0; k < 3 && length > 0.0; k++)
-    b->plane.normal[k] /= length;
-  gamut_status status;
-  if (!(length > 0.0)) {
-    status = gamut_fail_at(run, values, "plane.normal", "a direction towards the matter",
-                           "the normal has no length");
-  } else if (strcmp(kind, "traction") == 0) {
+  gamut_status status = gamut_read_plane(run, values, "a direction towards the matter",
+                                         b->plane.point, b->plane.normal);
+  if (status != GAMUT_OK) {
+    gamut_release(run, b);
+    return status;
+  }
+  if (strcmp(kind, "traction") == 0) {
     status = add_traction(run, values, b);
   } else if (moves && !gamut_given(values, "velocity")) {
     status = gamut_fail_at(run, values, "velocity", "velocity: [..]", "it is missing");
   } else {
     if (moves)
-      copy(values, "velocity", b->plane.velocity);
+      gamut_space_vector(values, "velocity", b->plane.velocity);
     status = GAMUT_HOST(run)->plane(run, &b->plane, &b->reaction);
   }
   if (status != GAMUT_OK)

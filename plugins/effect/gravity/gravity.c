@@ -27,10 +27,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   struct gravity_effect *effect = gamut_allocate(run, "gravity", sizeof *effect);
   if (!effect)
     return GAMUT_INTERNAL;
-  size_t count;
-  const double *acceleration = gamut_vector(values, "acceleration", &count);
-  for (size_t k = 0; k < count && k < 3; k++)
-    effect->acceleration[k] = acceleration[k];
+  gamut_space_vector(values, "acceleration", effect->acceleration);
   gamut_status status = gamut_field_named(run, "mass", &effect->mass);
   if (status == GAMUT_OK)
     status = gamut_field_named(run, "external_force", &effect->force);

@@ -27,20 +27,12 @@ static gamut_status take(void *self, const struct gamut_chunk *chunk)
 static gamut_status read_plane(struct gamut_run *run, const struct gamut_values *values,
                                struct outflow_effect *e)
 {
-  size_t count;
-  const double *n = gamut_vector(values, "plane.normal", &count);
-  double square = 0.0;
-  for (size_t k = 0; k < count && k < 3; k++) {
-    e->normal[k] = n[k];
-    square += n[k] * n[k];
-  }
-  if (!(square > 0.0))
-    return gamut_fail_at(run, values, "plane.normal", "a direction towards the matter that stays",
-                         "the normal has no length");
-  const double *point = gamut_vector(values, "plane.point", &count);
-  for (size_t k = 0; k < count && k < 3; k++)
+  double point[3];
+  const gamut_status status = gamut_read_plane(
+      run, values, "a direction towards the matter that stays", point, e->normal);
+  for (size_t k = 0; k < 3; k++)
     e->level += point[k] * e->normal[k];
-  return GAMUT_OK;
+  return status;
 }
 
 static gamut_status open_task(struct gamut_run *run, struct outflow_effect *e)

@@ -7,14 +7,6 @@ struct wall {
   const struct gamut_reaction *reaction;
 };
 
-static void copy(const struct gamut_values *values, const char *path, double to[3])
-{
-  size_t count = 0;
-  const double *from = gamut_vector(values, path, &count);
-  for (size_t k = 0; k < count && k < 3; k++)
-    to[k] = from[k];
-}
-
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
   struct gamut_plane plane = {.normal_rule = GAMUT_PLANE_MIRROR,
@@ -24,19 +16,13 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   struct wall *wall = gamut_allocate(run, "rigid wall", sizeof *wall);
   if (wall == NULL)
     return GAMUT_INTERNAL;
-  copy(values, "plane.point", plane.point);
-  copy(values, "plane.normal", plane.normal);
-  copy(values, "velocity", plane.velocity);
-  const double *n = plane.normal, length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  gamut_status status;
-  if (length > 0.0) {
-    for (int k = 0; k < 3; k++)
-      wall->normal[k] = plane.normal[k] /= length;
+  gamut_status status = gamut_read_plane(run, values, "a direction towards the matter",
+                                         plane.point, plane.normal);
+  if (gamut_given(values, "velocity"))
+    gamut_space_vector(values, "velocity", plane.velocity);
+  memcpy(wall->normal, plane.normal, sizeof wall->normal);
+  if (status == GAMUT_OK)
     status = GAMUT_HOST(run)->plane(run, &plane, &wall->reaction);
-  } else {
-    status = gamut_fail_at(run, values, "plane.normal", "a direction towards the matter",
-                           "the normal has no length");
-  }
   if (status != GAMUT_OK)
     gamut_release(run, wall);
   else

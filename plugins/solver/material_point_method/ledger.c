@@ -45,7 +45,9 @@ static gamut_status open_motion(struct model *m, unsigned k)
     if (status == GAMUT_OK)
       status = line(m, a, "external forces", unit, GAMUT_SUPPLIED, &l->external_impulse[k]);
     if (status == GAMUT_OK)
-      status = line(m, a, "planes", unit, GAMUT_SUPPLIED, &l->plane_impulse[k]);
+      status = line(m, a, "planes, forward", unit, GAMUT_SUPPLIED, &l->plane_forward[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "planes, backward", unit, GAMUT_SUPPLIED, &l->plane_backward[k]);
   }
   if (keeps_spin(m, k) && status == GAMUT_OK) {
     const char *a = spin[k], *unit = "kg m2/s";
@@ -55,7 +57,9 @@ static gamut_status open_motion(struct model *m, unsigned k)
     if (status == GAMUT_OK)
       status = line(m, a, "external forces", unit, GAMUT_SUPPLIED, &l->external_torque[k]);
     if (status == GAMUT_OK)
-      status = line(m, a, "planes", unit, GAMUT_SUPPLIED, &l->plane_torque[k]);
+      status = line(m, a, "planes, forward", unit, GAMUT_SUPPLIED, &l->plane_round[k]);
+    if (status == GAMUT_OK)
+      status = line(m, a, "planes, backward", unit, GAMUT_SUPPLIED, &l->plane_back_round[k]);
     if (status == GAMUT_OK)
       status = line(m, a, "gather loss", unit, GAMUT_LOST, &l->spin_loss[k]);
   }
@@ -175,11 +179,13 @@ void ledger_keep(struct model *m, double step)
   for (unsigned k = 0; k < 3; k++) {
     if (l->forward[k] != NULL) {
       *l->external_impulse[k] += step * was[SUM_FORCE + k];
-      *l->plane_impulse[k] += m->planes.impulse[k];
+      *l->plane_forward[k] += m->planes.forward[k];
+      *l->plane_backward[k] += m->planes.backward[k];
     }
     if (l->round[k] != NULL) {
       *l->external_torque[k] += step * was[SUM_TORQUE + k];
-      *l->plane_torque[k] += m->planes.torque[k];
+      *l->plane_round[k] += m->planes.round[k];
+      *l->plane_back_round[k] += m->planes.back_round[k];
       *l->spin_loss[k] += m->nodes.spin_after[k] - (l->now[SUM_SPIN + k] + gone[GONE_SPIN + k]);
     }
   }

@@ -62,8 +62,8 @@ struct ledger {
   double *mass, *kinetic, *internal, *stagger;
   double *forward[3], *backward[3], *round[3], *back_round[3];
   double *external_work, *plane_work, *impact_loss, *scatter_loss, *gather_loss, *remainder;
-  double *external_impulse[3], *plane_impulse[3];
-  double *external_torque[3], *plane_torque[3], *spin_loss[3];
+  double *external_impulse[3], *plane_forward[3], *plane_backward[3];
+  double *external_torque[3], *plane_round[3], *plane_back_round[3], *spin_loss[3];
 };
 
 struct fields {
@@ -133,9 +133,19 @@ struct model {
   struct work_counts counts;
 };
 
+/* read.c */
+gamut_status model_read(struct model *, const struct gamut_values *);
+/* Of a scheme that does not converge for these bodies. */
+void model_warn(const struct model *);
+
 /* points/layout.c: the points of the bodies. */
 gamut_status layout_bodies(struct model *, const struct gamut_values *);
 gamut_status layout_fill(struct model *);
+/* The place `at` of a body's lattice. */
+void layout_place(const struct body *, unsigned dimension, const long at[3], double x[3]);
+/* Points that the scene lists; null and 0 where it does not. */
+size_t layout_listed(const struct model *, const struct body *, const double **place,
+                     const double **volume);
 /* Chooses the grid's origin along the axes that no plane has fixed. */
 void layout_origin(struct model *);
 
@@ -157,7 +167,7 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *);
 gamut_status step_update_again(void *self, const struct gamut_chunk *);
 /* Nodes' momentum in the place of their velocity becomes velocity that heeds the planes. */
 void step_settle(struct model *);
-/* The boxes' momentum as velocity of the nodes, planes held. With `carry` the velocity that stood
+/* The boxes' momentum in the place of the nodes' velocity. With `carry` the velocity that stood
  * there moves to the place of its change; without, that place is left alone. */
 gamut_status step_project(struct model *, bool carry);
 
@@ -182,6 +192,9 @@ void ledger_add_up(const struct model *, double total[POINT_SUMS]);
 /* points/measures.c */
 gamut_status measure_value(struct model *, const char *name, const struct gamut_body *,
                            const struct gamut_values *, double *value);
+
+/* points/pairs.c: warns, once a pair, of bodies so close that they share nodes. */
+gamut_status pairs_warn(struct model *);
 
 /* points/pieces.c: in how many pieces the grid sees the points of a set. */
 gamut_status body_pieces(struct model *, const struct gamut_set *, double *pieces);

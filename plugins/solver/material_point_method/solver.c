@@ -65,100 +65,6 @@ static void destroy(void *self)
   gamut_release(run, m);
 }
 
-static gamut_status read_domain(struct model *m, const struct gamut_values *values)
-{
-  for (unsigned k = 0; k < 3; k++) {
-    m->lower[k] = -INFINITY;
-    m->upper[k] = INFINITY;
-  }
-  m->bounded = gamut_given(values, "domain");
-  if (!m->bounded)
-    return GAMUT_OK;
-  static const char *const path[2] = {"domain.min", "domain.max"};
-  for (int end = 0; end < 2; end++) {
-    size_t count;
-    if (!gamut_given(values, path[end]))
-      continue;
-    const double *place = gamut_vector(values, path[end], &count);
-    if (count != m->dimension)
-      return gamut_fail_at(m->run, values, path[end], "as many numbers as the geometry has axes",
-                           "%zu numbers where %u are due", count, m->dimension);
-    memcpy(end == 0 ? m->lower : m->upper, place, count * sizeof *place);
-  }
-  for (unsigned k = 0; k < m->dimension; k++)
-    if (!(m->lower[k] < m->upper[k]))
-      return gamut_fail_at(m->run, values, "domain", "min below max along every axis",
-                           "the domain is empty along %c", "xyz"[k]);
-  return GAMUT_OK;
-}
-
-/* Which of `names` the choice at `path` is. */
-static int chosen(const struct gamut_values *values, const char *path, const char *const *names)
-{
-  const char *name = gamut_text(values, path);
-  int k = 0;
-  while (strcmp(name, names[k]) != 0)
-    k++;
-  return k;
-}
-
-static gamut_status read_scheme(struct model *m, const struct gamut_values *values)
-{
-  static const char *const shapes[] = {"linear", "gimp", "quadratic", "cubic"};
-  static const char *const orders[] = {"usl", "musl", "usf", "auto"};
-  m->shape = (enum shape)chosen(values, "shape", shapes);
-  const int order = chosen(values, "order", orders);
-  m->order = order < 3 ? (enum order)order : m->shape == SHAPE_LINEAR ? ORDER_MUSL : ORDER_USL;
-  m->limited = m->shape == SHAPE_LINEAR && m->order == ORDER_USL;
-  m->contiguous =
-      m->shape == SHAPE_GIMP && strcmp(gamut_text(values, "gimp.domain"), "contiguous") == 0;
-  if (m->shape != SHAPE_GIMP && gamut_given(values, "gimp"))
-    return gamut_fail_at(m->run, values, "gimp", "shape: gimp, or no gimp",
-                         "the shape is %s: only those of gimp have domains", shapes[m->shape]);
-  return GAMUT_OK;
-}
-
-static gamut_status read_rule(struct model *m, const struct gamut_values *values)
-{
-  static const char *const rules[] = {"flip", "pic", "apic", "xpic"};
-  m->rule = (enum rule)chosen(values, "transfer.model", rules);
-  m->filter = (int)gamut_integer(values, "transfer.order");
-  m->pic = m->rule == RULE_FLIP ? gamut_real(values, "transfer.pic") : 1.0;
-  m->give_old = m->rule == RULE_XPIC ? 0.0 : m->pic;
-  if (m->rule != RULE_FLIP && gamut_given(values, "transfer.pic"))
-    return gamut_fail_at(m->run, values, "transfer.pic", "model: flip, or no pic",
-                         "pic is a share in flip; %s takes none", rules[m->rule]);
-  if (m->rule != RULE_XPIC && gamut_given(values, "transfer.order"))
-    return gamut_fail_at(m->run, values, "transfer.order", "model: xpic, or no order",
-                         "%s has no order", rules[m->rule]);
-  if (m->rule == RULE_APIC && m->shape == SHAPE_LINEAR)
-    return gamut_fail_at(m->run, values, "transfer.model", "a shape of gimp, quadratic or cubic",
-                         "apic and linear shapes make energy at the nodes around a body, which see "
-                         "its velocity's slope but next to nothing of its mass");
-  return GAMUT_OK;
-}
-
-static gamut_status read_values(struct model *m, const struct gamut_values *values)
-{
-  const char *geometry = gamut_text(values, "geometry");
-  m->geometry = strcmp(geometry, "1d") == 0             ? GEOMETRY_1D
-                : strcmp(geometry, "plane_strain") == 0 ? GEOMETRY_PLANE_STRAIN
-                : strcmp(geometry, "axisymmetric") == 0 ? GEOMETRY_AXISYMMETRIC
-                                                        : GEOMETRY_3D;
-  m->dimension = m->geometry == GEOMETRY_1D ? 1 : m->geometry == GEOMETRY_3D ? 3 : 2;
-  m->cell = gamut_real(values, "cell");
-  m->courant = gamut_real(values, "courant");
-  m->fixed_step = gamut_given(values, "step") ? gamut_real(values, "step") : 0.0;
-  m->points_per_cell = 2;
-  gamut_status status = read_scheme(m, values);
-  if (status == GAMUT_OK)
-    status = read_rule(m, values);
-  if (status != GAMUT_OK)
-    return status;
-  m->transfer = transfer_of(m->dimension, m->shape, m->rule == RULE_APIC);
-  return read_domain(m, values);
-}
-
 static gamut_status find_fields(struct model *m)
 {
   struct fields *f = &m->field;
@@ -233,7 +139,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
     return GAMUT_INTERNAL;
   m->run = run;
   m->host = GAMUT_HOST(run);
-  gamut_status status = read_values(m, values);
+  gamut_status status = model_read(m, values);
   if (status == GAMUT_OK)
     status = grid_create(&m->grid, run, m->dimension, shape_nodes(m->shape), shape_shift(m->shape),
                          m->cell);
@@ -243,6 +149,10 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
     status = find_fields(m);
   if (status == GAMUT_OK)
     status = layout_bodies(m, values);
+  if (status == GAMUT_OK)
+    status = pairs_warn(m);
+  if (status == GAMUT_OK)
+    model_warn(m);
   if (status == GAMUT_OK)
     status = step_register(m);
   if (status == GAMUT_OK)
@@ -287,15 +197,43 @@ static gamut_status start(void *self)
   return status;
 }
 
-/* The step by what the points allow; the first one knows no sound speed yet and is short. */
+/* The step by what the points and the planes allow; the first one knows no sound speed yet and is
+ * short. Infinite where nothing bounds it. */
 static double allowed_step(const struct model *m)
 {
   if (m->fixed_step > 0.0)
     return m->fixed_step;
   if (m->taken == 0)
-    return m->courant * m->cell / (fastest_sound + m->nodes.speed);
-  const double step = m->omega_squared > 0.0 ? 2.0 * m->courant / sqrt(m->omega_squared) : INFINITY;
+    return m->courant * m->cell / (fastest_sound + m->nodes.speed + m->planes.fastest);
+  double step = m->omega_squared > 0.0 ? 2.0 * m->courant / sqrt(m->omega_squared) : INFINITY;
+  if (m->planes.fastest > 0.0)
+    step = fmin(step, m->courant * m->cell / m->planes.fastest);
   return m->taken == 1 ? step : fmin(step, growth * m->last_step);
+}
+
+/* The first point with mass says why nothing bounds the step; none, and there is nothing to bound.
+ */
+static gamut_status check_bound(struct model *m)
+{
+  for (size_t b = 0; b < m->bodies; b++) {
+    const struct gamut_set *set = m->body[b].set;
+    const double *mass = m->host->stored(set, m->field.mass, 0);
+    for (size_t i = 0; i < set->slots; i++) {
+      if (set->id[i] < 0 || !(mass[i] > 0.0))
+        continue;
+      double x[3], v[3];
+      for (unsigned k = 0; k < 3; k++) {
+        x[k] = m->host->stored(set, m->field.position, k)[i];
+        v[k] = m->host->stored(set, m->field.velocity, k)[i];
+      }
+      return point_failed(m, set, i, x, v,
+                          "nothing bounds the time step: it has a sound speed of 0, like all "
+                          "others, and nothing moves. Give its body an initial energy, temperature "
+                          "or pressure with which its material has a sound speed, or state "
+                          "solver.step");
+    }
+  }
+  return GAMUT_OK;
 }
 
 static gamut_status next(void *self, double *step)
@@ -308,6 +246,8 @@ static gamut_status next(void *self, double *step)
                       "no time step is short enough: fastest node %g m/s, (sound speed / cell)^2 = "
                       "%g 1/s2",
                       m->nodes.speed, m->omega_squared);
+  if (allowed == INFINITY && check_bound(m) != GAMUT_OK)
+    return GAMUT_NUMERICS;
   *step = fmin(allowed, left);
   /* the last two steps share what is left, so that none is tiny */
   if (m->fixed_step == 0.0 && *step < left && left < 2.0 * *step)

@@ -1,4 +1,5 @@
 /* What planes do to the nodes that find.c found. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -88,9 +89,8 @@ void planes_before_update(struct model *m)
     t->mass = line[LINE_MASS];
     memcpy(t->momentum, line + LINE_MOMENTUM, sizeof t->momentum);
     memcpy(t->force, line + LINE_FORCE, sizeof t->force);
-    memset(t->rest, 0, sizeof t->rest);
-    t->slow = t->mass > 0.0 ? step_slow_mass(m, t->mass, line[LINE_SQUARE]) : 0.0;
-    line[LINE_SQUARE] = -fabs(line[LINE_SQUARE]);
+    /* A mark for the update: below zero, as no sum of squares is in any rounding mode. */
+    line[LINE_SQUARE] = -fmax(fabs(line[LINE_SQUARE]), DBL_MIN);
   }
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
@@ -241,16 +241,34 @@ static void column_friction(struct model *m, const struct plane *p, const struct
     line[LINE_CHANGE + k] += line[LINE_VELOCITY + k] - before[k];
 }
 
-/* What the limit of a node's acceleration keeps from strain and places the points' velocity gets
- * none the less, along what planes leave free. */
-static void give_rest(struct model *m, double step)
+/* What the limit of a nearly empty node's acceleration keeps from strain and places; the points'
+ * velocity gets it none the less. Before planes act on the nodes' change. */
+static void find_rest(struct model *m)
+{
+  for (size_t i = 0; i < m->planes.touches; i++) {
+    const double *line = touched_line(m, (int32_t)i);
+    const double slow = line[LINE_SLOW];
+    const bool slowed = slow > 0.0 && (m->limited || !(line[LINE_SHARE] > m->grid.empty));
+    for (int k = 0; k < 3; k++)
+      m->planes.touched[i].rest[k] = slowed ? line[LINE_CHANGE + k] * (1.0 / slow - 1.0) : 0.0;
+  }
+}
+
+/* The rest at the node behind a plane, which is an image. */
+static void unfold_rest(struct model *m, const struct plane *p, const struct column *c)
+{
+  if (c->touched[BEFORE] < 0 || c->touched[BEHIND] < 0)
+    return;
+  const double *before = m->planes.touched[c->touched[BEFORE]].rest;
+  double *behind = m->planes.touched[c->touched[BEHIND]].rest;
+  for (int k = 0; k < 3; k++)
+    behind[k] = p->odd[k] ? -before[k] : before[k];
+}
+
+/* Gives it, along what planes leave free. */
+static void give_rest(struct model *m)
 {
   struct planes *ps = &m->planes;
-  for (size_t i = 0; i < ps->touches; i++) {
-    struct touched *t = &ps->touched[i];
-    for (int k = 0; k < 3; k++)
-      t->rest[k] = t->mass > 0.0 ? step * t->force[k] * (1.0 / t->mass - 1.0 / t->slow) : 0.0;
-  }
   for (size_t i = 0; i < ps->count; i++) {
     const struct plane *p = ps->plane[i];
     for (size_t n = 0; n < p->nodes; n++) {
@@ -288,6 +306,7 @@ static void give_old(struct model *m)
 gamut_status planes_after_update(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
+  find_rest(m);
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
     contact_begin(p);
@@ -317,6 +336,7 @@ gamut_status planes_after_update(struct model *m, double step)
       for (int k = 0; k < 3; k++)
         line[k] = touched_line(m, p->column[c].touched[k]);
       unfold(p, line, true);
+      unfold_rest(m, p, &p->column[c]);
       if (p->column[c].arrives)
         stop_arrival(m, p, &p->column[c]);
       if (p->given.friction > 0.0)
@@ -324,8 +344,7 @@ gamut_status planes_after_update(struct model *m, double step)
       contact_add(m, p, on);
     }
   }
-  if (m->limited)
-    give_rest(m, step);
+  give_rest(m);
   const gamut_status status = planes_book(m, step);
   if (m->give_old != 0.0)
     give_old(m);

@@ -42,8 +42,9 @@ struct touched {
   int32_t index; /* in the block */
   double x[3];
   double mass, momentum[3], force[3];
-  double slow;    /* step_slow_mass */
   double rest[3]; /* change of velocity that only the points' velocity gets */
+  double given[3];  /* momentum that planes gave the points here in this step */
+  double passed[3]; /* xpic: momentum that a pass left here, before planes */
   int8_t owner[3]; /* plane that its impulse is booked to, by component */
   int8_t first;    /* the first plane that touches it */
 };
@@ -69,12 +70,15 @@ struct planes {
   struct plane *plane[PLANES_MAX];
   size_t count;
   bool any_moves;
+  double fastest; /* speed of a plane along its normal */
   struct touched *touched;
   size_t touches, touched_capacity;
   int32_t *of_node; /* numbers of touched nodes, or -1, of the blocks that have some */
   size_t of_nodes, of_node_capacity;
   double work, loss; /* by moving planes on the matter, and by impact and friction, in this step */
-  double impulse[3], torque[3];
+  /* what planes gave in this step, and moments of it about the origin, by the sign: the matter of a
+   * box at rest is pushed from both sides, and the sum of that is all rounding */
+  double forward[3], backward[3], round[3], back_round[3];
 };
 
 gamut_status planes_add(struct model *, const struct gamut_plane *, const struct gamut_reaction **);
@@ -89,8 +93,15 @@ gamut_status planes_after_update(struct model *, double step);
 /* The same for the second pass of MUSL: momentum and mass, then velocity. */
 void planes_before_second(struct model *);
 void planes_after_second(struct model *);
-/* reaction.c: books impulses and work of the step, remembers contact. */
+/* reaction.c: books momentum given and work of the step, remembers contact. */
 gamut_status planes_book(struct model *, double step);
+/* xpic: the nodes' momentum as a pass left it; and, when planes have acted on it, what of that the
+ * points get by `weight`. */
+void planes_before_pass(struct model *);
+void planes_book_pass(struct model *, double weight);
+/* When all is given: a wall that matter may leave takes back what it pulled; then each plane's
+ * reaction. */
+void planes_report(struct model *, double step);
 /* reaction.c: the area in contact, begun anew in each step, by the nodes that are. */
 void contact_begin(struct plane *);
 void contact_see(const struct model *, struct plane *, const struct touched *);

@@ -67,9 +67,10 @@ static void book_nodes(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
   for (size_t i = 0; i < ps->touches; i++) {
-    const struct touched *t = &ps->touched[i];
+    struct touched *t = &ps->touched[i];
     const double *line = touched_line(m, (int32_t)i);
-    double impulse[3], after[3];
+    double after[3];
+    memset(t->given, 0, sizeof t->given);
     if (t->mass == 0.0)
       continue;
     for (int k = 0; k < 3; k++) {
@@ -83,16 +84,16 @@ static void book_nodes(struct model *m, double step)
       ps->work += own * p->given.velocity[k];
       ps->loss += own * (p->given.velocity[k] - mean);
       p->reaction->work += own * p->given.velocity[k];
-      impulse[k] = own + m->pic * (t->mass * old - t->momentum[k]);
+      t->given[k] = own + m->pic * (t->mass * old - t->momentum[k]);
       after[k] = t->momentum[k] + t->mass * whole;
-      p->impulse[k] += impulse[k];
-      ps->impulse[k] += impulse[k];
       m->nodes.speed = fmax(m->nodes.speed, fabs(v));
     }
     for (int k = 0; k < 3; k++) {
       const int a = (k + 1) % 3, b = (k + 2) % 3;
-      ps->torque[k] += t->x[a] * (after[b] - t->momentum[b] - step * t->force[b]) -
-                       t->x[b] * (after[a] - t->momentum[a] - step * t->force[a]);
+      const double moment = t->x[a] * (after[b] - t->momentum[b] - step * t->force[b]) -
+                            t->x[b] * (after[a] - t->momentum[a] - step * t->force[a]);
+      ps->round[k] += fmax(moment, 0.0);
+      ps->back_round[k] += fmin(moment, 0.0);
       m->nodes.spin_after[k] += t->x[a] * after[b] - t->x[b] * after[a];
     }
   }
@@ -116,20 +117,93 @@ gamut_status planes_book(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
   ps->work = ps->loss = 0.0;
-  memset(ps->impulse, 0, sizeof ps->impulse);
-  memset(ps->torque, 0, sizeof ps->torque);
-  for (size_t i = 0; i < ps->count; i++)
-    memset(ps->plane[i]->impulse, 0, sizeof ps->plane[i]->impulse);
+  memset(ps->round, 0, sizeof ps->round);
+  memset(ps->back_round, 0, sizeof ps->back_round);
   book_nodes(m, step);
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
-    for (int k = 0; k < 3; k++) {
-      p->reaction->force[k] = -p->impulse[k] / step;
-      p->reaction->impulse[k] -= p->impulse[k];
-    }
     p->reaction->area = p->area = contact_area(p);
     if (remember(m, p) != GAMUT_OK)
       return GAMUT_INTERNAL;
   }
   return GAMUT_OK;
+}
+
+void planes_before_pass(struct model *m)
+{
+  for (size_t i = 0; i < m->planes.touches; i++)
+    memcpy(m->planes.touched[i].passed, touched_line(m, (int32_t)i) + LINE_VELOCITY,
+           sizeof m->planes.touched[i].passed);
+}
+
+void planes_book_pass(struct model *m, double weight)
+{
+  for (size_t i = 0; i < m->planes.touches; i++) {
+    struct touched *t = &m->planes.touched[i];
+    const double *velocity = touched_line(m, (int32_t)i) + LINE_VELOCITY;
+    for (int k = 0; k < 3; k++)
+      t->given[k] += weight * (t->mass * velocity[k] - t->passed[k]);
+  }
+}
+
+/* Of momentum that plane number `plane` gave at a node, the part along its normal. */
+static double push_of(const struct model *m, size_t plane, int32_t touched)
+{
+  const struct touched *t = &m->planes.touched[touched];
+  double push = 0.0;
+  for (int k = 0; k < 3; k++)
+    if (t->owner[k] == (int8_t)plane)
+      push += m->planes.plane[plane]->given.normal[k] * t->given[k];
+  return push;
+}
+
+/* Gives the points at these nodes back, at one velocity, what the plane took from them against its
+ * normal. The transfer may ask for that where the points' velocity is not that of the nodes: what
+ * it damps at a wall would be damped by a pull. */
+static void give_back(struct model *m, size_t plane, const int32_t *touched, int nodes)
+{
+  const double *normal = m->planes.plane[plane]->given.normal;
+  double push = 0.0, mass = 0.0;
+  for (int n = 0; n < nodes; n++)
+    if (touched[n] >= 0) {
+      push += push_of(m, plane, touched[n]);
+      mass += m->planes.touched[touched[n]].mass;
+    }
+  if (!(push < 0.0) || !(mass > 0.0))
+    return;
+  for (int n = 0; n < nodes; n++)
+    for (int k = 0; k < 3 && touched[n] >= 0; k++) {
+      struct touched *t = &m->planes.touched[touched[n]];
+      const double back = -push / mass * normal[k];
+      t->given[k] += t->mass * back;
+      touched_line(m, touched[n])[LINE_CHANGE + k] += back;
+    }
+}
+
+void planes_report(struct model *m, double step)
+{
+  struct planes *ps = &m->planes;
+  memset(ps->forward, 0, sizeof ps->forward);
+  memset(ps->backward, 0, sizeof ps->backward);
+  for (size_t i = 0; i < ps->count; i++) {
+    struct plane *p = ps->plane[i];
+    memset(p->impulse, 0, sizeof p->impulse);
+    for (size_t c = 0; c < p->columns && p->given.unilateral; c++)
+      give_back(m, i, p->column[c].touched, 3);
+    for (size_t n = 0; n < p->nodes && p->given.unilateral; n++)
+      give_back(m, i, &p->node[n].touched, 1);
+  }
+  for (size_t i = 0; i < ps->touches; i++)
+    for (int k = 0; k < 3; k++) {
+      const struct touched *t = &ps->touched[i];
+      ps->plane[t->owner[k]]->impulse[k] += t->given[k];
+    }
+  for (size_t i = 0; i < ps->count; i++)
+    for (int k = 0; k < 3; k++) {
+      struct plane *p = ps->plane[i];
+      ps->forward[k] += fmax(p->impulse[k], 0.0);
+      ps->backward[k] += fmin(p->impulse[k], 0.0);
+      p->reaction->force[k] = -p->impulse[k] / step;
+      p->reaction->impulse[k] -= p->impulse[k];
+    }
 }

@@ -21,7 +21,7 @@ static int root(long points, unsigned dimension)
   return 0;
 }
 
-static void lattice_place(const struct body *b, unsigned dimension, const long at[3], double x[3])
+void layout_place(const struct body *b, unsigned dimension, const long at[3], double x[3])
 {
   for (unsigned k = 0; k < 3; k++)
     x[k] = k < dimension ? b->lower[k] + ((double)at[k] + 0.5) * b->spacing[k] : 0.0;
@@ -57,7 +57,7 @@ static gamut_status check_place(const struct model *m, const struct gamut_values
 }
 
 /* Points that the scene lists; null and 0 where it does not. */
-static size_t listed(const struct model *m, const struct body *b, const double **place,
+size_t layout_listed(const struct model *m, const struct body *b, const double **place,
                      const double **volume)
 {
   const struct gamut_host *h = m->host;
@@ -108,7 +108,7 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
   if (status != GAMUT_OK)
     return status;
   const double *place, *volume;
-  b->points = listed(m, b, &place, &volume);
+  b->points = layout_listed(m, b, &place, &volume);
   if (b->points > 0)
     return lay_listed(m, b, place, lower, upper);
   double places = 1.0;
@@ -130,7 +130,7 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
   long at[3] = {0, 0, 0};
   do {
     double x[3];
-    lattice_place(b, m->dimension, at, x);
+    layout_place(b, m->dimension, at, x);
     b->points += m->host->body_contains(b->scene, x);
   } while (lattice_next(b, at));
   if (b->points == 0)
@@ -256,7 +256,7 @@ static gamut_status fill_lattice(struct model *m, const struct body *b)
   size_t slot = 0;
   do {
     double place[3];
-    lattice_place(b, m->dimension, at, place);
+    layout_place(b, m->dimension, at, place);
     if (!m->host->body_contains(b->scene, place))
       continue;
     const gamut_status status =
@@ -273,7 +273,7 @@ static gamut_status fill_body(struct model *m, struct body *b)
   double *mass = h->stored(b->set, m->field.mass, 0);
   double *reference = h->stored(b->set, m->field.reference_volume, 0), whole = 0.0;
   const double *place, *volume;
-  const bool given = listed(m, b, &place, &volume) > 0;
+  const bool given = layout_listed(m, b, &place, &volume) > 0;
   const gamut_status status = given ? fill_listed(m, b, place, volume) : fill_lattice(m, b);
   if (status != GAMUT_OK)
     return status;

@@ -79,6 +79,8 @@ gamut_status stray_outside_tile(struct model *, const struct gamut_set *, size_t
                                 const double *const v[3]);
 void stray_outside_domain(struct model *, const struct gamut_set *, size_t slot, size_t count,
                           const double *const x[3], const double *mass);
+/* Points whose time step has no bound that is a number. */
+void stray_without_step(struct model *, const struct gamut_chunk *, const double *omega_squared);
 gamut_status stray_fail(struct model *);
 
 #endif

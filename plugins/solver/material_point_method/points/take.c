@@ -51,7 +51,7 @@ static double nought(const double *value, size_t i)
 /* Whether the point is in its tile, and its state is made of numbers. */
 static bool is_sound(const struct model *m, const struct locate *l, const struct state *s, size_t i)
 {
-  double zero = nought(s->ratio, i) + nought(s->energy, i);
+  double zero = nought(s->ratio, i) + nought(s->energy, i) + nought(s->omega, i);
   for (unsigned k = 0; k < 3; k++)
     zero += nought(s->v[k], i) + nought(s->force[k], i);
   for (unsigned k = 0; k < 6; k++)
@@ -207,7 +207,8 @@ static int any_lost(const struct model *m, const struct locate *l, const struct 
 {
   const size_t count = l->count;
   const double slack = 1e-6 * m->cell, reach = m->cell * (GRID_REACH - 2 * m->grid.side) - slack;
-  int any = any_no_number(s->ratio, count) | any_no_number(s->energy, count);
+  int any = any_no_number(s->ratio, count) | any_no_number(s->energy, count) |
+            any_no_number(s->omega, count);
   for (unsigned k = 0; k < 3; k++)
     any |= any_no_number(s->v[k], count) | any_no_number(s->force[k], count);
   for (unsigned k = 0; k < 6; k++)

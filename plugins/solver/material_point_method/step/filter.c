@@ -42,7 +42,7 @@ static void swap_lines(struct model *m)
 }
 
 /* The touched node that node `index` of a block is, or null. */
-static const struct touched *touched_of(const struct model *m, const struct node_block *b,
+static struct touched *touched_of(const struct model *m, const struct node_block *b,
                                         size_t index)
 {
   const struct planes *ps = &m->planes;
@@ -66,12 +66,16 @@ static void begin(struct model *m)
     block->filter = m->filter_line + b * nodes * LINE;
     for (size_t i = 0; i < nodes && block->line != NULL; i++) {
       const double *from = block->line + i * LINE;
-      const struct touched *t = touched_of(m, block, i);
+      struct touched *t = touched_of(m, block, i);
       double *to = block->filter + i * LINE;
       memset(to, 0, LINE * sizeof *to);
       to[LINE_SHARE] = from[LINE_SHARE];
-      for (size_t k = 0; k < 3; k++)
-        to[LINE_VELOCITY + k] = to[LINE_SHARE] * velocity_before(from, t, k);
+      for (size_t k = 0; k < 3; k++) {
+        const double before = velocity_before(from, t, k);
+        to[LINE_VELOCITY + k] = to[LINE_SHARE] * before;
+        if (t != NULL)
+          t->passed[k] = t->mass * before;
+      }
     }
   }
 }
@@ -108,6 +112,14 @@ static gamut_status pass(struct model *m)
   return status != GAMUT_OK ? status : step_project(m, false);
 }
 
+/* What the nodes have of u, as momentum, becomes velocity; what planes did to it they give the
+ * points by as much as this pass and those that begin from it stand for in v*. */
+static void settle(struct model *m, double weight)
+{
+  step_settle(m);
+  planes_book_pass(m, weight);
+}
+
 static void add_share(struct model *m, double share)
 {
   for (size_t b = 0; b < m->grid.blocks; b++) {
@@ -118,21 +130,16 @@ static void add_share(struct model *m, double share)
   }
 }
 
-/* What planes gave the points by way of the filter: the difference of momentum that it makes. Then
- * the nodes take over what was filtered. */
+/* The nodes take over what was filtered. */
 static void finish(struct model *m)
 {
   for (size_t b = 0; b < m->grid.blocks; b++) {
     const struct node_block *block = &m->grid.block[b];
     for (size_t i = 0; i < m->grid.block_nodes && block->filter != NULL; i++) {
       double *line = block->line + i * LINE;
-      const double *u = block->filter + i * LINE;
-      const struct touched *t = touched_of(m, block, i);
-      const double mass = t == NULL ? line[LINE_SHARE] : t->mass;
-      for (size_t k = 0; k < 3; k++) {
-        m->planes.impulse[k] += mass * (u[LINE_CHANGE + k] - velocity_before(line, t, k));
-        line[LINE_CHANGE + k] += u[LINE_CHANGE + k];
-      }
+      const double *filtered = block->filter + i * LINE + LINE_CHANGE;
+      for (size_t k = 0; k < 3; k++)
+        line[LINE_CHANGE + k] += filtered[k];
     }
   }
 }
@@ -144,12 +151,17 @@ gamut_status step_filter(struct model *m)
   begin(m);
   swap_lines(m);
   gamut_status status = GAMUT_OK;
-  double share = m->filter;
-  step_settle(m);
+  double share = m->filter, left = 1.0; /* of all shares, those of this pass and of later ones */
+  settle(m, left);
   add_share(m, share);
   for (int r = 2; r <= m->filter && status == GAMUT_OK; r++) {
     status = pass(m);
+    if (status != GAMUT_OK)
+      break;
+    left -= share;
     share *= -(double)(m->filter - r + 1) / r;
+    planes_before_pass(m);
+    settle(m, left);
     add_share(m, share);
   }
   swap_lines(m);

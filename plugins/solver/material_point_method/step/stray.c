@@ -1,4 +1,5 @@
 /* Where the points of a chunk lie in the tile of their block, and those that lie nowhere. */
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -94,6 +95,19 @@ void stray_outside_domain(struct model *m, const struct gamut_set *set, size_t s
                : "it left the domain; a larger solver.domain lets it go on, outside: remove takes "
                  "such points out of the run");
   }
+}
+
+void stray_without_step(struct model *m, const struct gamut_chunk *chunk, const double *omega)
+{
+  const double *sound = gamut_end(chunk, m->field.sound_speed, 0);
+  for (size_t i = 0; i < chunk->count; i++)
+    if (chunk->set->id[chunk->slot + i] >= 0 && !(omega[i] <= DBL_MAX))
+      stray_note(m, chunk->set, chunk->slot + i,
+                 sound[i] >= 0.0 && sound[i] <= DBL_MAX
+                     ? "no time step is short enough for it: what bounds the step there "
+                       "(omega_squared) is no number, or beyond any"
+                     : "its sound speed is no number, without end, or negative: the material has "
+                       "none in this state, so that no time step is known");
 }
 
 gamut_status stray_fail(struct model *m)

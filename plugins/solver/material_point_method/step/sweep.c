@@ -1,5 +1,6 @@
 /* What a sweep does with the chunks of a block of points: gathers from the tile, moves the points,
  * scatters into it. */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -191,7 +192,7 @@ gamut_status bound_step(void *self, const struct gamut_chunk *chunk)
 #pragma omp simd
   for (size_t i = 0; i < chunk->count; i++) {
     const double speed = sound[i] + sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
-    omega[i] += scale * speed * speed;
+    omega[i] += sound[i] >= 0.0 ? scale * speed * speed : NAN;
   }
   return GAMUT_OK;
 }
@@ -237,10 +238,15 @@ gamut_status scatter_points(void *self, const struct gamut_chunk *chunk)
     return taken;
   const double *omega = gamut_end(chunk, m->field.omega_squared, 0);
   double most = w->omega_squared;
-#pragma omp simd reduction(max : most)
-  for (size_t i = 0; i < chunk->count; i++)
+  int unbounded = 0;
+#pragma omp simd reduction(max : most) reduction(| : unbounded)
+  for (size_t i = 0; i < chunk->count; i++) {
     most = omega[i] > most ? omega[i] : most;
+    unbounded |= !(omega[i] <= DBL_MAX);
+  }
   w->omega_squared = most;
+  if (unbounded)
+    stray_without_step(m, chunk, omega);
   return scatter_view(m, w, chunk->set, chunk->serial, chunk->slot, &view,
                       gamut_end(chunk, m->field.energy, 0));
 }

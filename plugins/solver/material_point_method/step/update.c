@@ -47,7 +47,7 @@ static void update_node(const struct model *m, double *line, const double x[3], 
                         struct node_sums *s)
 {
   const double mass = line[LINE_MASS], square = line[LINE_SQUARE];
-  const bool touched = signbit(square);
+  const bool touched = square < 0.0;
   const double over = 1.0 / mass;
   const bool heavy = mass > m->grid.empty && !m->limited;
   const double slow = heavy ? over : 1.0 / step_slow_mass(m, mass, square);
@@ -127,7 +127,9 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
   }
   if (planes_after_update(m, step) != GAMUT_OK)
     return GAMUT_INTERNAL;
-  return m->rule == RULE_XPIC ? step_filter(m) : GAMUT_OK;
+  const gamut_status status = m->rule == RULE_XPIC ? step_filter(m) : GAMUT_OK;
+  planes_report(m, step);
+  return status;
 }
 
 static void project_block(struct model *m, size_t b, bool carry)
@@ -178,10 +180,7 @@ gamut_status step_project(struct model *m, bool carry)
     num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     project_block(m, b, carry);
-  if (grid_forget_boxes(&m->grid) != GAMUT_OK)
-    return GAMUT_INTERNAL;
-  step_settle(m);
-  return GAMUT_OK;
+  return grid_forget_boxes(&m->grid);
 }
 
 gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
@@ -190,5 +189,8 @@ gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
   struct model *m = self;
   if (m->removal.stray.count > 0)
     return stray_fail(m);
-  return step_project(m, true);
+  if (step_project(m, true) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  step_settle(m);
+  return GAMUT_OK;
 }
