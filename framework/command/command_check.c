@@ -18,14 +18,16 @@ static gamut_status check_study(struct command *command, struct scene *scene)
   return status;
 }
 
-/* What only plugins can tell: they are made and the run is planned, but not started. */
+/* What only plugins can tell: all of a run up to its first step. */
 static gamut_status check_plan(struct command *command, struct scene *scene)
 {
   struct gamut_run *run = NULL;
-  const struct run_options options = {.threads = 1};
+  const struct run_options options = {.seed = scene->seed};
   if (scene->solver.descriptor == NULL)
     return GAMUT_OK;
-  const gamut_status status = run_new(scene, command->registry, &options, command->trace, &run);
+  gamut_status status = run_new(scene, command->registry, &options, command->trace, &run);
+  if (status == GAMUT_OK)
+    status = run_check(run, command->trace);
   run_free(run);
   return status;
 }

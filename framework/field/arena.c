@@ -1,8 +1,10 @@
 #include "field/field.h"
 
 #include <assert.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 /* Each piece carries its size and label in front, so that giving it back needs no search by
@@ -13,6 +15,9 @@ struct piece {
   size_t label;
 };
 enum { HEAD = 64 };
+/* From so many bytes on a piece is pages of its own that the system hands out zeroed when they are
+ * touched: what is only planned costs nothing. */
+static const size_t large = (size_t)32 << 20;
 
 struct label {
   char *text;
@@ -28,11 +33,35 @@ struct arena {
 };
 
 /* Linux promises more memory than there is and kills who uses it: what cannot fit is not asked
- * for. */
+ * for. What it can give without pushing others out is known where the kernel tells it. */
 static size_t memory_of_machine(void)
 {
   long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-  return pages > 0 && size > 0 ? (size_t)pages * (size_t)size : SIZE_MAX / 2;
+  size_t bytes = pages > 0 && size > 0 ? (size_t)pages * (size_t)size : SIZE_MAX / 2;
+  FILE *file = fopen("/proc/meminfo", "r");
+  char line[128];
+  unsigned long long kilobytes;
+  while (file && fgets(line, sizeof line, file))
+    if (sscanf(line, "MemAvailable: %llu kB", &kilobytes) == 1 && kilobytes < bytes / 1024)
+      bytes = (size_t)kilobytes * 1024;
+  if (file)
+    fclose(file);
+  return bytes;
+}
+
+static size_t whole_size(size_t bytes)
+{
+  return (HEAD + bytes + 63) & ~(size_t)63;
+}
+
+static void *zeroed(size_t whole)
+{
+  if (whole >= large) {
+    void *pages = mmap(NULL, whole, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return pages == MAP_FAILED ? NULL : pages;
+  }
+  void *memory = aligned_alloc(64, whole);
+  return memory ? memset(memory, 0, whole) : NULL;
 }
 
 struct arena *arena_new(void)
@@ -77,9 +106,14 @@ static bool label_number(struct arena *arena, const char *text, size_t *number)
   return true;
 }
 
+size_t arena_room(const struct arena *arena)
+{
+  return arena->bytes < arena->limit ? arena->limit - arena->bytes : 0;
+}
+
 bool arena_has_room(const struct arena *arena, size_t bytes)
 {
-  return arena->bytes <= arena->limit && bytes <= arena->limit - arena->bytes;
+  return bytes <= arena_room(arena);
 }
 
 void *arena_take(struct arena *arena, const char *label, size_t bytes)
@@ -89,11 +123,9 @@ void *arena_take(struct arena *arena, const char *label, size_t bytes)
     return NULL;
   if (!label_number(arena, label, &number))
     return NULL;
-  size_t whole = (HEAD + bytes + 63) & ~(size_t)63;
-  struct piece *piece = aligned_alloc(64, whole);
+  struct piece *piece = zeroed(whole_size(bytes));
   if (!piece)
     return NULL;
-  memset(piece, 0, whole);
   piece->bytes = bytes;
   piece->label = number;
   piece->next = arena->pieces.next;
@@ -117,7 +149,11 @@ void arena_give(struct arena *arena, void *memory)
   assert(arena->bytes >= piece->bytes);
   arena->bytes -= piece->bytes;
   arena->label[piece->label].bytes -= piece->bytes;
-  free(piece);
+  const size_t whole = whole_size(piece->bytes);
+  if (whole >= large)
+    munmap(piece, whole);
+  else
+    free(piece);
 }
 
 size_t arena_bytes(const struct arena *arena)

@@ -53,6 +53,7 @@ struct arena *arena_new(void);
 void arena_free(struct arena *); /* and everything in it */
 /* Whether so much more would fit into the memory of this machine. */
 bool arena_has_room(const struct arena *, size_t bytes);
+size_t arena_room(const struct arena *); /* how much */
 /* Zeroed, 64-byte aligned; null where it does not fit. */
 void *arena_take(struct arena *, const char *label, size_t bytes);
 void arena_give(struct arena *, void *);

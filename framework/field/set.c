@@ -1,5 +1,6 @@
 #include "field/field.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -82,7 +83,8 @@ static gamut_status take_all(struct point_set *set, struct trace *trace)
 {
   size_t components = fields_components(set->fields);
   size_t bytes = (set->capacity + SLACK) * sizeof(double);
-  bool room = arena_has_room(set->arena, bytes_wanted(set));
+  size_t wanted = bytes_wanted(set), room_before = arena_room(set->arena);
+  bool room = wanted <= room_before;
   set->array = calloc(components ? components : 1, sizeof *set->array);
   set->id = room ? arena_take(set->arena, "point ids", bytes) : NULL;
   bool good = set->array && set->id;
@@ -98,8 +100,9 @@ static gamut_status take_all(struct point_set *set, struct trace *trace)
   return good ? GAMUT_OK
               : trace_fail_at(trace, GAMUT_SCENE, NULL, NULL,
                               "fewer points: a larger cell, or fewer in a cell",
-                              "this machine lacks the memory for %zu points of body '%s'",
-                              set->open.points, set->open.body);
+                              "the %zu points of body '%s' take %.3g GB, this machine has %.3g GB",
+                              set->open.points, set->open.body, 1e-9 * (double)wanted,
+                              1e-9 * (double)room_before);
 }
 
 gamut_status set_allocate(struct point_set *set, const struct fields *fields, struct trace *trace)
@@ -112,7 +115,8 @@ gamut_status set_allocate(struct point_set *set, const struct fields *fields, st
     set->id[i] = i < set->open.points ? (int64_t)i : -1;
   for (size_t f = 0; f < fields_count(fields); f++) {
     const struct field *field = fields_at(fields, f);
-    for (unsigned k = 0; field->stored && k < field->handle.components; k++)
+    bool zero = !(fabs(field->initial) > 0.0); /* as the memory is */
+    for (unsigned k = 0; field->stored && !zero && k < field->handle.components; k++)
       for (size_t i = 0; i < set->capacity; i++)
         set->array[field->handle.first + k][i] = field->initial;
   }
@@ -251,8 +255,8 @@ static void set_mass(struct point_set *set, size_t slot, double value)
 }
 
 /* Points leave the block of slots first to end - 1; returns how many of the slots it saw. */
-static size_t drop_from_block(struct point_set *set, size_t first, size_t end,
-                              const uint32_t *slot, size_t count)
+static size_t drop_from_block(struct point_set *set, size_t first, size_t end, const uint32_t *slot,
+                              size_t count)
 {
   size_t seen = 0, last = end;
   while (seen < count && slot[seen] < end)

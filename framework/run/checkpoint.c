@@ -145,8 +145,7 @@ done:
 }
 
 static gamut_status put_state(const struct writing *w, const char *plugin, const char *path,
-                              const void *self,
-                              size_t (*save)(const void *, void *))
+                              const void *self, size_t (*save)(const void *, void *))
 {
   const char *before = guard_enter_long(plugin);
   size_t size = save(self, NULL);
@@ -178,8 +177,7 @@ static gamut_status put_effects(const struct writing *w)
     }
     if (effect->ops->save && effect->ops->restore)
       TRY(put_state(w, effect->effect->instance.descriptor->id,
-                    restart_path(path, "effects", name, "state"), effect->self,
-                    effect->ops->save));
+                    restart_path(path, "effects", name, "state"), effect->self, effect->ops->save));
   }
 done:
   return status;
@@ -240,9 +238,9 @@ done:
 
 void checkpoint_start(struct gamut_run *run)
 {
-  double every = run->scene->checkpoint_every;
   run->checkpoint_wall = wall_now();
-  run->checkpoint = every > 0.0 ? (uint64_t)floor(run->time * (1.0 + 1e-12) / every) : 0;
+  run->checkpoint = 0;
+  due_by_now(run, run->scene->checkpoint_every, &run->checkpoint);
 }
 
 gamut_status checkpoint_due(struct gamut_run *run)
@@ -251,9 +249,6 @@ gamut_status checkpoint_due(struct gamut_run *run)
   bool due = wall > 0.0 && wall_now() - run->checkpoint_wall >= wall;
   if (!run->store || !run_can_stop(run))
     return GAMUT_OK;
-  while (every > 0.0 && run->time * (1.0 + 1e-12) >= (double)(run->checkpoint + 1) * every) {
-    run->checkpoint++;
-    due = true;
-  }
+  due |= due_by_now(run, every, &run->checkpoint);
   return due ? checkpoint_write(run) : GAMUT_OK;
 }

@@ -182,8 +182,8 @@ gamut_status run_add_task(struct gamut_run *run, const char *owner, const struct
   gamut_status status = GAMUT_OK;
   TRY(declare_used(run, task));
   if (!task->material) {
-    TRY(schedule_add(run->schedule, owner, place_of_owner(run), task, run->fields, only_set,
-                     on_set, run->trace));
+    TRY(schedule_add(run->schedule, owner, place_of_owner(run), task, run->fields, only_set, on_set,
+                     run->trace));
     schedule_plugin(run->schedule, adding(run));
   }
   for (size_t s = 0; task->material && s < run->scene->bodies; s++)
@@ -343,7 +343,10 @@ gamut_status run_new(struct scene *scene, struct registry *registry,
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
     goto done;
   }
-  TRY(assemble(run));
+  status = assemble(run);
+  if (status == GAMUT_INTERNAL && run->too_large)
+    status = GAMUT_SCENE; /* the plugin knows only that it got none */
+  TRY(status);
   if (options->threads <= 0)
     spare_threads(run);
 done:

@@ -261,23 +261,31 @@ static double frame_every(const struct gamut_run *run)
   return every < 0.0 ? run->end / -every : every;
 }
 
+/* Moves a count of what is due every so long up to the present time; false if nothing new is. Far
+ * ahead it jumps: it never counts one by one what may be more than a run can live to see. */
+bool due_by_now(const struct gamut_run *run, double every, uint64_t *count)
+{
+  const double now = run->time * (1.0 + 1e-12);
+  if (!(every > 0.0) || now < (double)(*count + 1) * every)
+    return false;
+  const double whole = fmin(floor(now / every), 9e15);
+  if (whole > (double)*count + 2.0)
+    *count = (uint64_t)whole - 1;
+  while (*count < (uint64_t)9e15 && now >= (double)(*count + 1) * every)
+    ++*count;
+  return true;
+}
+
 /* Frames are counted by time, so that others than before may be wanted after a restart. */
 void frames_go_on(struct gamut_run *run)
 {
-  double every = frame_every(run);
-  run->frame = every > 0.0 ? (size_t)floor(run->time * (1.0 + 1e-12) / every) : 0;
-  while (every > 0.0 && run->time * (1.0 + 1e-12) >= (double)(run->frame + 1) * every)
-    run->frame++;
+  run->frame = 0;
+  due_by_now(run, frame_every(run), &run->frame);
 }
 
 gamut_status frames_due(struct gamut_run *run)
 {
-  double every = frame_every(run);
-  if (!(every > 0.0) || !run->store)
+  if (!run->store || !due_by_now(run, frame_every(run), &run->frame))
     return GAMUT_OK;
-  if (run->time * (1.0 + 1e-12) < (double)(run->frame + 1) * every)
-    return GAMUT_OK;
-  while (run->time * (1.0 + 1e-12) >= (double)(run->frame + 1) * every)
-    run->frame++;
   return frames_write(run);
 }

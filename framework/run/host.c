@@ -154,6 +154,9 @@ static gamut_status host_field(struct gamut_run *run, const char *name, struct g
   if (!field && vocable)
     field = fields_add(run->fields, vocable->name, vocable->where, vocable->components,
                        vocable->unit, vocable->meaning, run->trace);
+  if (!field && run->measuring && run->measuring->node)
+    return trace_fail_at(run->trace, GAMUT_SCENE, &run->measuring->node->place,
+                         run->measuring->name, NULL, "there is no field '%s' in this scene", name);
   if (!field)
     return trace_fail(run->trace, GAMUT_PLUGIN, "%s asks for the field '%s', which nobody declares",
                       owner_of(run), name);
@@ -224,15 +227,48 @@ static void host_set_uniform(struct gamut_run *run, struct gamut_field field, do
 
 static void *host_allocate(struct gamut_run *run, const char *label, size_t bytes)
 {
+  size_t room = arena_room(run->arena);
   void *memory = arena_take(run->arena, label, bytes);
-  if (!memory)
+  if (!memory && bytes > room) {
+    const struct tree *node =
+        run->creating ? run->creating->effect->instance.node : run->scene->solver.node;
+    run->too_large = true;
+    trace_fail_at(run->trace, GAMUT_SCENE, node ? &node->place : NULL, NULL,
+                  "a smaller scene, or a machine with more memory",
+                  "%s take %.3g GB, this machine has %.3g GB", label, 1e-9 * (double)bytes,
+                  1e-9 * (double)room);
+  } else if (!memory) {
     trace_fail(run->trace, GAMUT_INTERNAL, "no memory for %zu bytes of %s", bytes, label);
+  }
   return memory;
 }
 
 static void host_release(struct gamut_run *run, void *memory)
 {
   arena_give(run->arena, memory);
+}
+
+/* A wall that all bodies leave behind does nothing, most often by a slip of a sign. */
+static void warn_left_behind(const struct gamut_run *run, const struct gamut_plane *plane)
+{
+  const struct effect *effect = run->creating ? run->creating->effect : NULL;
+  bool all = effect && plane->unilateral;
+  for (size_t b = 0; all && b < run->scene->bodies; b++) {
+    const struct gamut_body *body = &run->scene->body[b];
+    double lower[3], upper[3], x[3], v[3], away = 0.0;
+    if (!host_body_bounds(body, lower, upper))
+      return;
+    for (int k = 0; k < 3; k++)
+      x[k] = isfinite(lower[k]) && isfinite(upper[k]) ? 0.5 * (lower[k] + upper[k]) : 0.0;
+    host_body_velocity(body, x, v);
+    for (int k = 0; k < 3; k++)
+      away += (v[k] - plane->velocity[k]) * plane->normal[k];
+    all = away > 0.0;
+  }
+  if (all)
+    trace_warn_at(run->trace, &effect->instance.node->place, NULL,
+                  "a normal towards the matter, a velocity against it",
+                  "%s: every body moves away from this wall", run->creating->label);
 }
 
 static gamut_status host_plane(struct gamut_run *run, const struct gamut_plane *plane,
@@ -244,6 +280,8 @@ static gamut_status host_plane(struct gamut_run *run, const struct gamut_plane *
   const struct gamut_reaction *made = NULL;
   gamut_status status = GUARDED(run->scene->solver.descriptor->id,
                                 run->solver->plane(run->solver_self, plane, &made));
+  if (status == GAMUT_OK)
+    warn_left_behind(run, plane);
   if (reaction)
     *reaction = made;
   if (status != GAMUT_OK || !run->creating)

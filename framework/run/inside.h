@@ -131,12 +131,13 @@ struct gamut_run {
   double time, step, end;
   uint64_t steps;
   double next_frame;
-  size_t frame;
+  uint64_t frame;
   double wall, cpu;
   uint64_t checkpoint;    /* of `outputs.checkpoint.every`: how many have been due */
   double checkpoint_wall; /* when the last one was written */
   double work;            /* points updated by this process */
   bool started, resumed;
+  bool too_large; /* memory was asked for that this machine has not */
   gamut_status start; /* what came of it */
 };
 
@@ -216,6 +217,7 @@ gamut_status frames_write(struct gamut_run *);
 /* Writes a frame if one is due by the present time. */
 gamut_status frames_due(struct gamut_run *);
 void frames_go_on(struct gamut_run *); /* after a restart */
+bool due_by_now(const struct gamut_run *, double every, uint64_t *count);
 void frames_free(struct gamut_run *);
 
 /* checkpoint.c */
@@ -234,8 +236,18 @@ void ledger_free(struct gamut_run *);
 uint64_t *work_open(struct gamut_run *, const char *name);
 json_t *work_json(const struct gamut_run *);
 
+/* forecast.c: what a run would cost, from its start and a few steps of it. */
+enum { TRIAL_STEPS = 5 };
+struct forecast {
+  double step, steps, seconds;
+  char limit[200];
+};
+bool forecast_steps(struct gamut_run *, struct forecast *);
+
 /* march.c */
 gamut_status march_start(struct gamut_run *);
+/* How long the first step would be, without taking it. */
+gamut_status march_first_step(struct gamut_run *, double *step);
 /* One step; false in *more at the end of the run. */
 gamut_status march_step(struct gamut_run *, bool *more);
 

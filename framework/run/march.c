@@ -46,6 +46,8 @@ gamut_status march_start(struct gamut_run *run)
   TRY(observe_start(run));
   removal_start(run);
 done:
+  if (status == GAMUT_INTERNAL && run->too_large)
+    status = GAMUT_SCENE;
   run->start = status;
   return status;
 }
@@ -79,6 +81,11 @@ static gamut_status choose_step(struct gamut_run *run, double *step)
                            "at t = %g s a step is %g s: the run would never end", run->time, *step);
 done:
   return status;
+}
+
+gamut_status march_first_step(struct gamut_run *run, double *step)
+{
+  return choose_step(run, step);
 }
 
 static uint64_t count_points(const struct gamut_run *run)

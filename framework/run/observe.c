@@ -18,8 +18,8 @@ static bool from_points(const struct quantity *quantity)
   return quantity->field || (quantity->measure && quantity->measure->at == MEASURE_POINT);
 }
 
-/* A typing error in `every` must not take all memory. */
-static const double samples_most = 1e7, samples_most_in_all = 1e8;
+/* Many points with many samples each must not take all memory. */
+static const double samples_most_in_all = 1e8;
 
 static gamut_status check_samples(struct gamut_run *run, const struct quantity *quantity,
                                   double *in_all)
@@ -28,10 +28,6 @@ static gamut_status check_samples(struct gamut_run *run, const struct quantity *
   const struct place *place = quantity->node ? &quantity->node->place : NULL;
   const char *name = quantity->family ? quantity->family : quantity->name;
   *in_all += samples;
-  if (samples > samples_most)
-    return trace_fail_at(run->trace, GAMUT_SCENE, place, name, "a longer `every`",
-                         "quantity '%s' would have %.3g samples; %g are the most", name, samples,
-                         samples_most);
   if (*in_all > samples_most_in_all)
     return trace_fail_at(run->trace, GAMUT_SCENE, place, name, "fewer points or a longer `every`",
                          "with quantity '%s' there would be more than %g samples", name,

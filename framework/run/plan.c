@@ -1,46 +1,8 @@
 #include <jansson.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 #include "run/inside.h"
-
-enum { TRIAL_STEPS = 5 };
-
-/* What a run would cost, from its start and a few steps of it. */
-struct forecast {
-  double step, steps, seconds;
-  char limit[200];
-};
-
-static double now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
-static bool forecast(struct gamut_run *run, struct forecast *f)
-{
-  bool more = true;
-  *f = (struct forecast){0};
-  if (march_start(run) != GAMUT_OK)
-    return false;
-  if (run->solver->describe)
-    run->solver->describe(run->solver_self, &f->step, f->limit, sizeof f->limit);
-  double begun = now();
-  int taken = 0;
-  while (more && taken < TRIAL_STEPS) {
-    if (march_step(run, &more) != GAMUT_OK)
-      return false;
-    taken += more;
-  }
-  if (!(f->step > 0.0))
-    f->step = run->step;
-  f->steps = f->step > 0.0 && run->end > 0.0 ? run->end / f->step : 0.0;
-  f->seconds = taken ? f->steps * (now() - begun) / taken : 0.0;
-  return true;
-}
 
 /* Bytes a point that the declarations demand: stored components, the id, the spare for sorting. */
 static size_t declared_bytes(const struct gamut_run *run, size_t *stored)
@@ -97,11 +59,11 @@ static json_t *fields_json(const struct gamut_run *run)
   json_t *all = json_array();
   for (size_t f = 0; f < fields_count(run->fields); f++) {
     const struct field *field = fields_at(run->fields, f);
-    json_array_append_new(
-        all, json_pack("{s:s, s:s, s:i, s:s, s:b, s:i}", "name", field->name, "unit", field->unit,
-                       "components", (int)field->handle.components, "kept", field_place(field),
-                       "history", (int)field->history, "bytes_per_point",
-                       field->stored ? (int)(8 * field->handle.components) : 0));
+    json_array_append_new(all, json_pack("{s:s, s:s, s:i, s:s, s:b, s:i}", "name", field->name,
+                                         "unit", field->unit, "components",
+                                         (int)field->handle.components, "kept", field_place(field),
+                                         "history", (int)field->history, "bytes_per_point",
+                                         field->stored ? (int)(8 * field->handle.components) : 0));
   }
   return all;
 }
@@ -153,7 +115,7 @@ char *run_explain_json(struct gamut_run *run)
   size_t stored;
   size_t declared = declared_bytes(run, &stored);
   struct run_cost cost = run_cost_of(run);
-  bool good = forecast(run, &f);
+  bool good = forecast_steps(run, &f);
   struct run_cost after = run_cost_of(run);
   json_t *root = json_object();
   json_object_set_new(root, "scene", json_string(run->scene->file));
@@ -282,7 +244,7 @@ void run_explain(struct gamut_run *run, FILE *file)
   print_tasks(run, file);
   print_off(run, file);
   print_fields(run, file);
-  bool good = forecast(run, &f);
+  bool good = forecast_steps(run, &f);
   print_chance(run, file);
   print_memory(run, declared_bytes(run, &stored), file);
   if (!good)

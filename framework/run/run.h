@@ -40,6 +40,9 @@ void run_record(struct gamut_run *, struct store *);
 /* The initial state, unless it stands already; run_march does it where nobody did. What only the
  * solver can see of a scene's faults shows here, before a store is opened. */
 gamut_status run_start(struct gamut_run *, struct trace *);
+/* In place of a run: all that is known of one before its first step, as errors, and a warning where
+ * it would take more than an hour. What takes much memory is not started. */
+gamut_status run_check(struct gamut_run *, struct trace *);
 /* Whether the solver can save its state: the run leaves checkpoints in the folder of its store,
  * when it is stopped and as often as outputs.checkpoint says. Runs without a store, as those of a
  * study, never do. */

@@ -155,6 +155,9 @@ bool is_card(const struct tree *root)
   return card;
 }
 
+/* A machine that takes a million steps a second needs ten days for them. */
+static const double steps_most = 1e12;
+
 void solver_read(struct reading *reading, const struct tree *root)
 {
   const struct tree *node = tree_get(root, "solver");
@@ -172,6 +175,10 @@ void solver_read(struct reading *reading, const struct tree *root)
   const struct value *end = values_find(scene->solver.values, "end");
   if (end && end->present && end->parameter->type == VALUE_REAL && !(end->real > 0))
     blame_value(reading, end->node, "greater than 0", "the run ends before it begins");
+  const struct value *step = values_find(scene->solver.values, "step");
+  if (step && step->given && step->present && step->parameter->type == VALUE_REAL &&
+      axis_length(reading) > 0)
+    count_within(reading, step->node, "steps", end->real, step->real, steps_most);
 }
 
 const char *axis_unit(const struct reading *reading)

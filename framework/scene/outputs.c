@@ -4,6 +4,8 @@
 #include "scene/reading.h"
 
 enum { FIELDS_MAX = 1000 };
+/* More frames or checkpoints than anybody looks at. */
+static const double frames_most = 1e6;
 
 static void frames_read(struct reading *reading, const struct tree *node)
 {
@@ -15,14 +17,14 @@ static void frames_read(struct reading *reading, const struct tree *node)
   } else if (every) {
     if (!amount_read(reading, every, "every", axis_unit(reading), &value))
       return;
-    if (value > 0)
-      scene->output_every = value;
-    else
+    if (!(value > 0))
       blame_value(reading, every, "greater than 0", "'every' is not positive");
+    else if (every_within(reading, every, "frames", value, frames_most))
+      scene->output_every = value;
   } else if (frames) {
     if (!amount_read(reading, frames, "frames", "1", &value))
       return;
-    if (value >= 1 && value <= 1e6 && value == (double)(long)value)
+    if (value >= 1 && value <= frames_most && value == (double)(long)value)
       scene->output_every = -value;
     else
       blame_value(reading, frames, "a whole number from 1 to 1000000", "'frames' cannot be '%.40s'",
@@ -97,9 +99,12 @@ static void checkpoint_read(struct reading *reading, const struct tree *node)
   if (!given)
     blame_value(reading, node, "such as {every: 10 us}, or a wall time: 10 min",
                 "'checkpoint' is empty");
-  else if (amount_read(reading, given, "checkpoint", run ? axis_unit(reading) : "s", value) &&
-           !(*value > 0))
+  else if (!amount_read(reading, given, "checkpoint", run ? axis_unit(reading) : "s", value))
+    return;
+  else if (!(*value > 0))
     blame_value(reading, given, "greater than 0", "'checkpoint' is not positive");
+  else if (run)
+    every_within(reading, given, "checkpoints", *value, frames_most);
 }
 
 void outputs_read(struct reading *reading, const struct tree *root)

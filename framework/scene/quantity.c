@@ -127,14 +127,19 @@ static bool measure_find(struct reading *reading, const struct tree *node, const
   return quantity->measure != NULL;
 }
 
+static const double samples_most = 1e7;
+
 static void when_read(struct reading *reading, const struct tree *node, struct quantity *quantity)
 {
   const struct tree *reduce = tree_get(node, "reduce"), *every = tree_get(node, "every");
   if (reduce)
     reduction_read(reading, reduce, quantity->measure, &quantity->reduction);
-  if (every && amount_read(reading, every, "every", axis_unit(reading), &quantity->every) &&
-      !(quantity->every > 0))
+  if (!every || !amount_read(reading, every, "every", axis_unit(reading), &quantity->every))
+    return;
+  if (!(quantity->every > 0))
     blame_value(reading, every, "greater than 0", "'every' is not positive");
+  else
+    every_within(reading, every, "samples", quantity->every, samples_most);
 }
 
 static void quantity_read(struct reading *reading, const struct tree *node,

@@ -124,16 +124,22 @@ static void warn_outside(struct reading *reading, const struct tree *node,
   const struct gamut_body *body =
       quantity->body >= 0 ? &reading->scene->body[quantity->body] : NULL;
   size_t outside = 0;
-  if (!body || body->shape.kind == SHAPE_NONE || quantity->follow_space)
+  if (!body || body->shape.kind == SHAPE_NONE)
     return;
   for (size_t i = 0; i < places->count; i++)
     outside += !shape_inside(&body->shape, &places->place[3 * i], -1e-9 * (1 + body->shape.radius));
-  if (outside > 0 && places->count == 1)
-    warn_value(reading, node, "the nearest point of the body is taken",
-               "the point lies outside body '%s'", body->name);
-  else if (outside > 0)
-    warn_value(reading, node, "the nearest points of the body are taken",
-               "%zu of %zu points lie outside body '%s'", outside, places->count, body->name);
+  if (outside == 0)
+    return;
+  const bool space = quantity->follow_space;
+  const char *then = space                ? "there is no value until matter comes there"
+                     : places->count == 1 ? "the nearest point of the body is taken"
+                                          : "the nearest points of the body are taken";
+  if (places->count == 1)
+    warn_value(reading, node, then, "the point lies outside body '%s', %.3g mm from it", body->name,
+               1e3 * fabs(shape_depth(&body->shape, places->place)));
+  else
+    warn_value(reading, node, then, "%zu of %zu points lie outside body '%s'", outside,
+               places->count, body->name);
 }
 
 /* Which of the three ways to say where is taken; null with a fault. */

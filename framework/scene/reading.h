@@ -62,6 +62,16 @@ void *scene_take(size_t count, size_t size);                   /* freed by its o
 void *scene_keep(struct reading *, size_t count, size_t size); /* freed with the scene */
 char *scene_text(struct reading *, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
+/* count.c: whether PART fits at most MOST times into WHOLE; else a fault at the node that says how
+ * many WHAT ("frames") there would be. */
+bool count_within(struct reading *, const struct tree *, const char *what, double whole,
+                  double part, double most);
+/* The same for something that happens EVERY so long, up to the solver's end, or within one unit of
+ * an axis that has none. */
+bool every_within(struct reading *, const struct tree *, const char *what, double every,
+                  double most);
+double axis_length(const struct reading *); /* the solver's end; 0: it has none */
+
 /* blame.c: faults in words. `expected` may be null. */
 
 void blame_value(struct reading *, const struct tree *, const char *expected, const char *format,

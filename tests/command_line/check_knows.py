@@ -1,7 +1,10 @@
 """What a scene can be told before its first step: laws that would have no effect, fields that
-nobody writes."""
+nobody writes, what run would refuse, memory, counts and hours."""
 import os
+import re
+import resource
 import tempfile
+import time
 
 from tap import done, figure, gamut, report
 
@@ -24,6 +27,15 @@ materials:
       elasticity: {shear_modulus: 47 GPa}}
 bodies: {s: {material: m, temperature: 400 K}}
 quantities: {T: {measure: temperature, reduce: at end}}
+"""
+BONDS = """gamut: 1
+solver: {model: gamut_bar, bonds: 10000000}
+materials:
+  metal:
+    density: 2800 kg/m3
+    strength: {model: ramberg_osgood, youngs_modulus: 70 GPa, yield_stress: 500 MPa, n: 20,
+               failure_stress: 600 MPa, failure_strain: 0.1}
+bodies: {bar: {material: metal, length: 100 mm, area: 100 mm2}}
 """
 SHEAR = "materials.cu.elasticity={shear_modulus: 47 GPa}"
 
@@ -90,10 +102,109 @@ def fields(scratch):
            f"what the solver gives is there: {of}", answer)
 
 
+def settings_of(words):
+    return [word for setting in words for word in ("--set", setting)]
+
+
+def agreement(scratch):
+    """check and run end alike, whoever refuses: reader, plan, solver, effect or start."""
+    scene = os.path.join(scratch, "agree.yaml")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(BAR)
+    point = "at: {body: bar, point: [0 mm, 1 mm]}"
+    short = [SHEAR, "solver.end=0.2 us"]
+    for name, code, words in (
+            ("a good scene", 0, short),
+            ("no shear", 3, short[1:]),
+            ("axis z", 3, short + ["quantities.z={measure: extent, axis: z}"]),
+            ("diameter along z", 3, short + ["quantities.z={measure: diameter, along: z}"]),
+            ("field von_mises", 3, short + ["quantities.f={measure: mean, field: von_mises}"]),
+            ("domains without gimp", 3, short + ["quantities.f={measure: long_domains}"]),
+            ("wall in the bar", 3, short + ["effects.wall.plane.point=[0 mm, 9 mm]"]),
+            ("velocity without value", 3, short + ['bodies.bar.velocity=["0", "1/(y-y)"]']),
+            ("pressure without energy", 3, short + ["materials.cu.eos={model: linear, "
+                                                    "bulk_modulus: 140 GPa}",
+                                                    "bodies.bar.pressure=1 GPa"]),
+            ("an effect that is off", 3, short + ["effects.wall.enabled=off",
+                                                  "quantities.f={measure: normal_force}"]),
+            ("tension without a sound speed", 5, short + ["bodies.bar.energy=-1e12 J/m3"]),
+            ("a point of nowhere", 0, short + [f"quantities.v={{measure: velocity_y, {point}}}"])):
+        checked = gamut("check", scene, *settings_of(words))
+        ran = gamut("run", scene, "-o", os.path.join(scratch, "agree"), "--force",
+                    *settings_of(words))
+        report(checked.code == ran.code == code,
+               f"{name}: check {checked.code}, run {ran.code}, due {code}", ran)
+
+
+def warnings(scratch):
+    scene = os.path.join(scratch, "warn.yaml")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(BAR)
+    short = [SHEAR, "solver.end=0.2 us"]
+    for name, told, words in (
+            ("a bar that flies away from its wall", "moves away from this wall",
+             short + ["bodies.bar.velocity=[0 m/s, 150 m/s]"]),
+            ("a wall that flees", "moves away from this wall",
+             short + ["effects.wall.velocity=[0 m/s, -300 m/s]"]),
+            ("a point 80 mm off", "80 mm from it",
+             short + ["quantities.v={measure: velocity_y, "
+                      "at: {body: bar, point: [0 mm, 100 mm]}}"]),
+            ("a place 80 mm off", "80 mm from it",
+             short + ["quantities.v={measure: velocity_y, "
+                      "at: {body: bar, point: [0 mm, 100 mm], follow: space}}"]),
+            ("an end of hours", "hours on this machine", [SHEAR, "solver.end=100 s"]),
+            ("a step for hours", "hours on this machine",
+             [SHEAR, "solver.step=1e-14 s", "solver.end=0.001 s"])):
+        answer = gamut("check", scene, *settings_of(words))
+        report(answer.code == 0 and told in answer.said, f"{name}: warned of", answer)
+    for name, words in (("a bar that meets its wall", short),
+                        ("a bar at rest", short + ["bodies.bar.velocity=[0 m/s, 0 m/s]"])):
+        answer = gamut("check", scene, *settings_of(words))
+        report(answer.code == 0 and "warning" not in answer.said, f"{name}: no word", answer)
+
+
+def spent(scene, *words):
+    """Answer of a check, its seconds of processor and the most memory of any check so far, MB."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    begun = time.monotonic()
+    answer = gamut("check", scene, *settings_of(words))
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return (answer, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime,
+            after.ru_maxrss / 1024, time.monotonic() - begun)
+
+
+def memory(scratch):
+    """Large scenes are planned, not laid out, and refused with both figures."""
+    scene = os.path.join(scratch, "large.yaml")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(BAR)
+    for name, words in (("4e11 points", ["solver.cell=10 nm"]),
+                        ("1.3e9 points in space",
+                         ["solver.geometry=3d", "solver.cell=0.04 mm", "bodies.bar.velocity="
+                          "[0 m/s, -1 m/s, 0 m/s]", "bodies.bar.shape={box: {min: [0 mm, 0 mm, "
+                          "0 mm], max: [22 mm, 22 mm, 22 mm]}}", "effects={}"])):
+        answer, cpu, _, _ = spent(scene, SHEAR, *words)
+        figures = re.search(r"take (\S+) GB, this machine has (\S+) GB", answer.said)
+        report(answer.code == 3 and (figures or ("more than 2e9 points" in answer.said and
+                                                 "4e11" in name)),
+               f"{name}: refused with what is needed and what there is", answer)
+        figure(cpu, 2.0, f"{name}: processor time of check [s]")
+    with open(scene, "w", encoding="utf-8") as file:
+        file.write(BONDS)
+    answer, cpu, most, _ = spent(scene)
+    report(answer.code == 0 and "not started" in answer.said,
+           "1e7 bonds: fine, and what was not checked is said", answer)
+    figure(cpu, 2.0, "1e7 bonds: processor time of check [s]")
+    figure(most, 600.0, "1e7 bonds: memory of check [MB]")
+
+
 def main():
     with tempfile.TemporaryDirectory() as scratch:
         laws(scratch)
         fields(scratch)
+        agreement(scratch)
+        warnings(scratch)
+        memory(scratch)
     done()
 
 

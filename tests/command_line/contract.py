@@ -213,7 +213,7 @@ def refused_late(folder):
             (3, "quantities.length.axis=z", "\n(quantities.length)"),
             (3, "effects.top={model: rigid_wall, plane: {point: [0 mm, 30.01 mm], "
              "normal: [0, -1]}}", "effect top: planes at y"),
-            (3, "quantities.length.every=1e-15 s", "a longer `every`"),
+            (3, "quantities.length.every=1e-15 s", "that makes 8e+10 samples"),
             (2, "solver.cell", "usage: gamut run SCENE"),
             (3, 'bodies.bar.velocity=["1 / (x - x)", "0"]', "the velocity of body 'bar'"),
             (3, 'bodies.bar.velocity=["", "0"]', "the formula is empty"),
@@ -227,9 +227,12 @@ def refused_late(folder):
                f"{setting}: exit {code}, nothing written", answer)
     answer = gamut("run", bar, "-o", result, "--threads", "100000")
     report(answer.code == 2 and "at most" in answer.said, "too many threads: exit 2", answer)
-    answer = gamut("run", bar, "-o", result, "--set", "solver.step=1e-30 s")
-    report(answer.code == 5 and "would never end" in answer.said,
-           "a step that gets nowhere: exit 5", answer)
+    for setting, code, words in (("solver.step=1e-30 s", 3, "that makes 8e+25 steps"),
+                                 ("bodies.bar.velocity=[0 m/s, -1e18 m/s]", 5, "would never end")):
+        answer = gamut("run", bar, "-o", result, "--set", setting)
+        same = gamut("check", bar, "--set", setting)
+        report(answer.code == same.code == code and words in answer.said and words in same.said,
+               f"{setting}, a step that gets nowhere: exit {code}, also from check", answer)
     answer = gamut("check", bar, "--set", "quantities.diameter_at_0.2L.height=0.3")
     report(answer.code == 0, "a name with a dot can be set", answer)
 

@@ -54,6 +54,7 @@ struct families {
 };
 
 gamut_status families_new(struct bar *, size_t depth);
+gamut_status families_start(struct bar *);
 /* Stress, plastic strain and d(plastic strain)/dT at these T, from what is remembered. */
 gamut_status families_evaluate(struct bar *, const double *internal);
 /* Remembers the last evaluation, which was at these T. */

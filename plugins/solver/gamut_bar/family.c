@@ -34,8 +34,11 @@ static gamut_status law_new(struct bar *bar, size_t from, struct family_law *law
   return GAMUT_OK;
 }
 
+/* The first law is asked for figures; the others are made when the bar starts, so that a plan of it
+ * takes no memory. What they will take is asked for and given back. */
 gamut_status families_new(struct bar *bar, size_t depth)
 {
+  enum { LAW_BYTES = 160 };
   static const char label[] = "families";
   struct families *f = &bar->families;
   size_t n = bar->bonds;
@@ -44,11 +47,13 @@ gamut_status families_new(struct bar *bar, size_t depth)
   f->law = gamut_allocate(bar->run, label, f->laws * sizeof *f->law);
   if (!f->law)
     return GAMUT_INTERNAL;
-  for (size_t c = 0; c < f->laws; c++) {
-    gamut_status status = law_new(bar, c * FAMILY_CHUNK, &f->law[c]);
-    if (status != GAMUT_OK)
-      return status;
-  }
+  gamut_status status = law_new(bar, 0, &f->law[0]);
+  if (status != GAMUT_OK)
+    return status;
+  void *room = gamut_allocate(bar->run, "laws of families", LAW_BYTES * n);
+  gamut_release(bar->run, room);
+  if (!room)
+    return GAMUT_INTERNAL;
   for (int k = 0; k < 3; k++)
     if (!(f->turn[k] = gamut_allocate(bar->run, "memory of families", n * depth * sizeof(double))))
       return GAMUT_INTERNAL;
@@ -61,6 +66,17 @@ gamut_status families_new(struct bar *bar, size_t depth)
   f->trial_count = gamut_allocate(bar->run, label, n);
   f->below = gamut_allocate(bar->run, label, n);
   return f->count && f->trial_count && f->below ? GAMUT_OK : GAMUT_INTERNAL;
+}
+
+gamut_status families_start(struct bar *bar)
+{
+  struct families *f = &bar->families;
+  for (size_t c = 1; c < f->laws; c++) {
+    gamut_status status = law_new(bar, c * FAMILY_CHUNK, &f->law[c]);
+    if (status != GAMUT_OK)
+      return status;
+  }
+  return GAMUT_OK;
 }
 
 /* What family i remembers at `level`, with the turn under way on top. */

@@ -169,6 +169,8 @@ static gamut_status start(void *self)
   struct bar *bar = self;
   gamut_status status = arrange(bar);
   if (status == GAMUT_OK)
+    status = families_start(bar);
+  if (status == GAMUT_OK)
     status = grid_new(bar);
   if (status == GAMUT_OK)
     status = softness_new(bar);

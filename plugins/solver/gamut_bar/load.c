@@ -25,6 +25,16 @@ static gamut_status find_reference(struct bar *bar)
                              "the strength gives no stress for the path to begin at");
 }
 
+/* More load steps than anybody waits for. */
+static const double steps_most = 1e8;
+
+static gamut_status count_fits(struct bar *bar, const char *path, double steps)
+{
+  return steps <= steps_most ? GAMUT_OK
+                             : gamut_fail_at(bar->run, bar->values, path, "at most 1e8 load steps",
+                                             "the path of the load has %.3g steps", steps);
+}
+
 static gamut_status monotonic(struct bar *bar)
 {
   struct load *load = &bar->load;
@@ -36,6 +46,12 @@ static gamut_status monotonic(struct bar *bar)
                          "'strain_limit' is missing: the strength has no failure_strain to end at");
   double end = bar->failure_stress > 0.0 ? bar->failure_stress : 30.0 * load->reference;
   load->stress_limit = 3.0 * end;
+  const double rungs =
+      log(load->stress_limit / load->reference / gamut_real(bar->values, "start")) /
+      log(load->growth);
+  const gamut_status status = count_fits(bar, "growth", rungs);
+  if (status != GAMUT_OK)
+    return status;
   load->rung = (long)ceil(log(gamut_real(bar->values, "start")) / log(load->growth) - 1e-9);
   return GAMUT_OK;
 }
@@ -51,7 +67,14 @@ static gamut_status table(struct bar *bar)
     if (!(load->row[2 * i] > (i ? load->row[2 * i - 2] : -1e-300)))
       return gamut_fail_at(bar->run, bar->values, "load_table", "growing steps from 0 on",
                            "the step goes back in row %zu of the table", i + 1);
-  return GAMUT_OK;
+  return count_fits(bar, "load_table", load->row[2 * load->rows - 2]);
+}
+
+static gamut_status cyclic(struct bar *bar)
+{
+  const struct load *load = &bar->load;
+  return count_fits(bar, "increments",
+                    2.0 * (double)load->levels * (double)load->cycles * (double)load->increments);
 }
 
 gamut_status load_new(struct bar *bar)
@@ -66,8 +89,10 @@ gamut_status load_new(struct bar *bar)
   load->cycles = gamut_integer(bar->values, "cycles");
   load->increments = gamut_integer(bar->values, "increments");
   gamut_status status = find_reference(bar);
-  if (status != GAMUT_OK || load->kind == LOAD_CYCLIC)
+  if (status != GAMUT_OK)
     return status;
+  if (load->kind == LOAD_CYCLIC)
+    return cyclic(bar);
   return load->kind == LOAD_TABLE ? table(bar) : monotonic(bar);
 }
 

@@ -85,6 +85,25 @@ static gamut_status lay_listed(struct model *m, struct body *b, const double *pl
   return gamut_points(m->run, b->scene, b->points, &b->set);
 }
 
+/* Whether the points will fit, from the share of the lattice that the shape fills: counting them
+ * takes longer than to know that there are too many. */
+static gamut_status expect_points(struct model *m, const struct body *b, double places)
+{
+  enum { POINT_BYTES = 200 }; /* at least */
+  const struct gamut_host *h = m->host;
+  double box = 1.0, filled = 0.0;
+  if (h->size >= offsetof(struct gamut_host, body_volume) + sizeof h->body_volume)
+    filled = h->body_volume(b->scene, m->dimension, false);
+  for (unsigned k = 0; k < m->dimension; k++)
+    box *= b->spacing[k] * (double)b->count[k];
+  if (!(filled > 0.0 && box > 0.0))
+    return GAMUT_OK;
+  const double points = 0.9 * places * fmin(filled / box, 1.0);
+  void *room = gamut_allocate(m->run, "points", (size_t)points * POINT_BYTES);
+  gamut_release(m->run, room);
+  return room != NULL ? GAMUT_OK : GAMUT_INTERNAL;
+}
+
 static gamut_status lay_lattice(struct model *m, const struct gamut_values *values, struct body *b)
 {
   const char *name = m->host->body_name(b->scene);
@@ -104,7 +123,7 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
   }
   if (m->geometry == GEOMETRY_AXISYMMETRIC)
     lower[0] = fmax(lower[0], 0.0); /* a shape around the axis: its half */
-  const gamut_status status = check_place(m, values, name, lower, upper);
+  gamut_status status = check_place(m, values, name, lower, upper);
   if (status != GAMUT_OK)
     return status;
   const double *place, *volume;
@@ -127,6 +146,9 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
     b->spacing[k] = (upper[k] - lower[k]) / (double)b->count[k];
   }
   b->density = m->host->body_density(m->run, b->scene);
+  status = expect_points(m, b, places);
+  if (status != GAMUT_OK)
+    return status;
   long at[3] = {0, 0, 0};
   do {
     double x[3];
