@@ -225,10 +225,16 @@ void blame_unknown(struct reading *reading, const struct tree *child,
     known[i] = i < others ? also[i] : parameter[i - others].name;
   const char *found = elsewhere(reading, child->key, parameter, count, true, where, sizeof where);
   const char *near = nearest(child->key, known, count + others);
-  if (near && !found && reading->guesses < GUESSES_MAX)
+  if (near && !found && !foreign_name(child->key) && reading->guesses < GUESSES_MAX)
     reading->guess[reading->guesses++] = (struct guess){child->parent, near};
-  if (found) {
+  const char *instead = foreign_name(child->key);
+  if (foreign_comma(child)) {
+    snprintf(expected, sizeof expected,
+             "a comma ends a value: write a decimal point, such as 5.5 for 5,5");
+  } else if (found) {
     snprintf(expected, sizeof expected, "'%s' belongs %s", found, where);
+  } else if (instead) {
+    snprintf(expected, sizeof expected, "%s", instead);
   } else if (near) {
     snprintf(expected, sizeof expected, "did you mean '%s'?", near);
   } else {
@@ -239,8 +245,8 @@ void blame_unknown(struct reading *reading, const struct tree *child,
       snprintf(expected, sizeof expected, "known: %s",
                list_text(known, count + others, list, sizeof list));
   }
-  blame_key(reading, child, count + others || found ? expected : NULL, "unknown key '%s' in %s",
-            child->key, what);
+  blame_key(reading, child, count + others || found || instead ? expected : NULL,
+            "unknown key '%s' in %s", child->key, what);
   free(known);
 }
 

@@ -277,18 +277,29 @@ static bool belongs_to_file(const char *path)
          (length == 7 && strncmp(path, "include", length) == 0);
 }
 
+/* An option is one word: faults name it, not a line and a column of it. */
+static void stand_for_option(struct tree *tree)
+{
+  tree->place.line = tree->key_place.line = 0;
+  for (size_t i = 0; i < tree->children; i++)
+    stand_for_option(tree->child[i]);
+}
+
 static void override_put(struct reading *reading, struct tree *root,
                          const struct scene_override *override)
 {
-  char name[PATH_SIZE], parent[PATH_SIZE];
+  char name[PATH_SIZE + 128], parent[PATH_SIZE];
   struct tree *value = NULL;
   gamut_status status = GAMUT_OK;
-  snprintf(name, sizeof name, "--set %s", override->path);
+  snprintf(name, sizeof name, "--set %s=%.100s", override->path,
+           override->node ? "" : override->value);
   if (!override->node)
     status = tree_parse(override->value, strlen(override->value), name, GAMUT_SCENE, reading->trace,
                         &value);
   else if (!(value = tree_copy(override->node)))
     status = trace_fail(reading->trace, GAMUT_INTERNAL, "out of memory");
+  if (status == GAMUT_OK && !override->node)
+    stand_for_option(value);
   if (status == GAMUT_OK && belongs_to_file(override->path))
     status =
         trace_fail_at(reading->trace, GAMUT_USAGE, &value->place, override->path,

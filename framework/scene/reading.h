@@ -99,6 +99,11 @@ char *list_text(const char *const *name, size_t count, char *buffer, size_t size
 /* A key that nobody knows here; suggests the nearest, also of groups below and of neighbours. */
 void blame_unknown(struct reading *, const struct tree *child, const struct parameter *,
                    size_t count, const char *const *also, size_t others, const char *what);
+/* foreign.c: what gamut has for a name that other codes use; null if it is none of those. */
+const char *foreign_name(const char *key);
+/* Whether a key is what follows a decimal comma within braces: {A: 5,5 MPa} has the keys A and
+ * "5 MPa". */
+bool foreign_comma(const struct tree *);
 /* Whether a key of the mapping that is a fault already was meant to be this one: it is not missed.
  */
 bool was_meant(const struct reading *, const struct tree *mapping, const char *name);

@@ -124,13 +124,22 @@ static json_t *parameter_schema(const struct parameter *parameter)
                    pure ? "" : parameter->unit, pure ? "" : "]", physical);
 }
 
+/* Several plugins may mean different things by one name: then each of them will do. */
+static void add_property(json_t *properties, const char *name, json_t *schema)
+{
+  json_t *known = json_object_get(properties, name);
+  if (!known || json_equal(known, schema))
+    json_object_set_new(properties, name, schema);
+  else
+    json_object_set_new(properties, name, json_pack("{s:[O, o]}", "anyOf", known, schema));
+}
+
 /* Properties of parameters, added to `into` or to a new object. */
 static json_t *parameters_schema(const struct parameter *parameter, size_t count, json_t *into)
 {
   json_t *properties = into ? into : json_object();
   for (size_t i = 0; i < count; i++)
-    if (!json_object_get(properties, parameter[i].name))
-      json_object_set_new(properties, parameter[i].name, parameter_schema(&parameter[i]));
+    add_property(properties, parameter[i].name, parameter_schema(&parameter[i]));
   return properties;
 }
 
@@ -243,6 +252,12 @@ static json_t *body_schema(const struct registry *registry)
   return object(properties, true);
 }
 
+/* An interval of what the solver marches along: time with its unit, or a pure number. */
+static json_t *along_axis(void)
+{
+  return json_pack("{s:[o, o]}", "anyOf", reference("quantity"), reference("number"));
+}
+
 static json_t *quantity_schema(const struct registry *registry)
 {
   json_t *line = object(json_pack("{s:o, s:o, s:{s:s}}", "from", reference("place"), "to",
@@ -259,7 +274,7 @@ static json_t *quantity_schema(const struct registry *registry)
       described(json_pack("{s:[s, s]}", "type", "string", "object"),
                 "at end, at 12 us, max, min, mean, {mean: [t0, t1]}, {time_of: VALUE}, ...; "
                 "absent: a history"),
-      "every", reference("quantity"));
+      "every", along_axis());
   for (size_t i = 0; i < registry_count(registry); i++) {
     const struct descriptor *d = registry_at(registry, i);
     for (size_t k = 0; k < d->measures; k++)
@@ -291,12 +306,26 @@ static json_t *definitions(const struct registry *registry)
                              list_of(json_pack("{s:s}", "type", "string"), 0, 0)));
 }
 
+/* A part of what an include may hold the rest of has no keys that it must have. */
+static json_t *members_need(const char *key)
+{
+  return json_pack("{s:{s:s, s:[s]}}", "additionalProperties", "type", "object", "required", key);
+}
+
+static json_t *needs_of_a_whole(void)
+{
+  json_t *parts = json_pack("{s:o, s:o, s:o}", "materials", members_need("density"), "bodies",
+                            members_need("material"), "quantities", members_need("measure"));
+  return json_pack("{s:{s:{s:[s]}}, s:{s:o}}", "if", "not", "required", "include", "then",
+                   "properties", parts);
+}
+
 void schema_write(const struct registry *registry, FILE *file)
 {
   json_t *checkpoint = json_pack("{s:[o, o]}", "anyOf", reference("quantity"),
-                                 object(json_pack("{s:o}", "every", reference("quantity")), true));
+                                 object(json_pack("{s:o}", "every", along_axis()), true));
   json_t *outputs =
-      object(json_pack("{s:o, s:{s:s}, s:o, s:o}", "every", reference("quantity"), "frames", "type",
+      object(json_pack("{s:o, s:{s:s}, s:o, s:o}", "every", along_axis(), "frames", "type",
                        "integer", "fields", reference("names"), "checkpoint", checkpoint),
              true);
   json_t *uncertainty =
@@ -315,6 +344,9 @@ void schema_write(const struct registry *registry, FILE *file)
                              "https://json-schema.org/draft/2020-12/schema", "title", "gamut scene",
                              "type", "object", "properties", properties, "additionalProperties", 0,
                              "required", "gamut", "$defs", definitions(registry));
+  json_t *needs = needs_of_a_whole();
+  json_object_update(schema, needs);
+  json_decref(needs);
   json_dumpf(schema, file, JSON_INDENT(2));
   fputc('\n', file);
   json_decref(schema);

@@ -1,3 +1,4 @@
+#include <errno.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -254,12 +255,17 @@ static void seed_read(struct reading *reading, const struct tree *node)
     return;
   const char *text = node->kind == TREE_SCALAR && !node->quoted ? node->text : "";
   size_t digits = strspn(text, "0123456789");
-  if (digits == 0 || digits > 18 || text[digits]) {
-    blame_value(reading, node, "a whole number from 0, of at most 18 digits",
-                "'seed' is no whole number");
+  static const char range[] = "a whole number from 0 to 9223372036854775807";
+  if (digits == 0 || text[digits]) {
+    blame_value(reading, node, range, "'seed' is no whole number");
     return;
   }
-  reading->scene->seed = strtoull(text, NULL, 10);
+  errno = 0;
+  const unsigned long long seed = strtoull(text, NULL, 10);
+  if (errno == ERANGE || seed > INT64_MAX) /* whole numbers of JSON, in the summary, end there */
+    blame_value(reading, node, range, "'seed' is too large: %.60s", text);
+  else
+    reading->scene->seed = seed;
 }
 
 static void failures_read(struct reading *reading, const struct tree *node)

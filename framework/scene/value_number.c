@@ -35,6 +35,26 @@ static bool not_a_scalar(struct reading *reading, const struct tree *node, const
 typedef enum unit_result unit_reader(const struct units *, const char *text, const char *unit,
                                      double *value);
 
+/* What hides in text that is no number: a unit without a blank before it, a decimal comma. Writes
+ * what should stand there. */
+static void explain_text(const struct reading *reading, const char *text, const char *unit,
+                         char *words, size_t size)
+{
+  char spaced[96], *end;
+  const size_t digits = strspn(text, "0123456789+-.,eE");
+  strtod(text, &end);
+  const size_t number = (size_t)(end - text);
+  if (number > 0 && number < 32 && *end == ',' && end[1] >= '0' && end[1] <= '9') {
+    snprintf(words, size, "write a decimal point: '%.*s.%.40s'", (int)number, text, end + 1);
+    return;
+  }
+  if (number == 0 || number > 31 || digits == strlen(text) || strlen(end) > 31)
+    return;
+  snprintf(spaced, sizeof spaced, "%.*s %s", (int)number, text, end);
+  if (unit_alike(reading->units, end, unit_is_pure(unit) ? "1" : unit))
+    snprintf(words, size, "a blank before the unit: '%s'", spaced);
+}
+
 static bool number_read_by(unit_reader *read, struct reading *reading, const struct tree *node,
                            const char *name, const char *unit, double *value)
 {
@@ -64,6 +84,8 @@ static bool number_read_by(unit_reader *read, struct reading *reading, const str
       return false;
     }
     words = node->quoted ? "is text in quotes, no number" : "is no number";
+    if (!node->quoted)
+      explain_text(reading, node->text, unit, expected, sizeof expected);
     break;
   case UNIT_NAN:
     words = "is no finite number";

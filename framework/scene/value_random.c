@@ -276,8 +276,11 @@ bool random_read(struct reading *reading, const struct parameter *parameter,
   struct distribution d = {.lower = -INFINITY, .upper = INFINITY};
   char what[128];
   if (!parameter->random) {
-    blame_value(reading, node, "one number; this parameter cannot be random",
-                "'%s' is a mapping where a number is due", parameter->name);
+    const bool meant = tree_get(node, "mean") || tree_get(node, "distribution");
+    blame_value(reading, node,
+                meant ? "one number; a sweep may vary it" : "one number with its unit, no mapping",
+                meant ? "'%s' may not be random" : "'%s' is a mapping where a number is due",
+                parameter->name);
     return false;
   }
   size_t faults = reading->faults;

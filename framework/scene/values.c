@@ -55,7 +55,12 @@ static bool integer_read(struct reading *reading, const struct parameter *parame
 {
   if (!amount_read(reading, node, parameter->name, parameter->unit, &value->real))
     return false;
-  if (value->real != nearbyint(value->real) || fabs(value->real) > 9007199254740992.) {
+  if (fabs(value->real) > 9007199254740992.) {
+    blame_value(reading, node, "a whole number from -2^53 to 2^53",
+                "'%s' is too large for a whole number: '%.60s'", parameter->name, node->text);
+    return false;
+  }
+  if (value->real != nearbyint(value->real)) {
     blame_value(reading, node, "a whole number", "'%s' is no whole number: '%.60s'",
                 parameter->name, node->text);
     return false;

@@ -360,7 +360,7 @@ static void test_random(void)
   scene_free(scene);
   bad(HEAD METAL "    source: x\n" BAR
                  "effects: {h: {model: heat, taylor_quinney: {mean: 1, sd: 1}}}",
-      "taylor_quinney", "'taylor_quinney' is a mapping where a number is due", "cannot be random");
+      "taylor_quinney", "'taylor_quinney' may not be random", "one number");
 }
 
 static void test_files(void)
