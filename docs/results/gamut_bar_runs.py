@@ -6,7 +6,11 @@ import os
 import subprocess
 import sys
 
-import h5py
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../tests"))
+import needs  # noqa: E402
+
+needs.modules("h5py")
+import h5py  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TREE = os.path.dirname(os.path.dirname(HERE))

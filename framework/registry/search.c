@@ -221,7 +221,10 @@ gamut_status search_roots(struct registry *registry, const struct registry_optio
     TRY(add_folder(&search, folder));
   search.in_place = false;
   search.origin = "installed";
-  if (GAMUT_PLUGIN_FOLDER[0])
+  if (program_place(folder, sizeof folder, &owner) &&
+      installed_beside(folder, GAMUT_PLUGIN_FOLDER, data, sizeof data) && is_folder(data))
+    TRY(add_root(&search, data, data));
+  else if (GAMUT_PLUGIN_FOLDER[0])
     TRY(add_root(&search, GAMUT_PLUGIN_FOLDER, GAMUT_PLUGIN_FOLDER));
 
 done:

@@ -85,6 +85,12 @@ static bool locate_data(const char *name, char *path, size_t size)
     }
   }
 #ifdef GAMUT_DATA_DIR
+  char beside[PATH_MAX];
+  if (slash && installed_beside(program, GAMUT_DATA_DIR, beside, sizeof beside)) {
+    snprintf(path, size, "%s/%s", beside, name);
+    if (exists(path))
+      return true;
+  }
   snprintf(path, size, "%s/%s", GAMUT_DATA_DIR, name);
   return exists(path);
 #else

@@ -16,7 +16,11 @@ import sys
 import tempfile
 import time
 
-import yaml
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import needs  # noqa: E402
+
+needs.modules("yaml")
+import yaml  # noqa: E402
 
 TREE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 PAGE = os.path.join(TREE, "docs/results/mutations.md")

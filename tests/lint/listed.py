@@ -14,7 +14,7 @@ def words(*paths):
     return found
 
 
-fragments = [p for p in tap.files("framework", "plugins", "tests") if p.endswith("Makefile.inc")]
+fragments = [p for p in tap.files("framework", "plugins", "tests", "inputs") if p.endswith("Makefile.inc")]
 listed = words("Makefile.am", *fragments)
 kinds = sorted({"/".join(p.split("/")[1:3]) for p in tap.files("plugins") if p.count("/") > 2})
 
@@ -30,6 +30,8 @@ def without(ending, kinds):
             if not os.path.exists(os.path.join(tap.ROOT, "plugins", k, k.split("/")[1] + ending))]
 
 
+tap.check("every scene and card is listed",
+          [p for p in tap.files("inputs", suffixes=(".yaml",)) if p not in listed])
 tap.check("every plugin has its descriptor", without(".yaml", kinds))
 tap.check("every law has its known answers",
           without(".test.yaml", [k for k in kinds if k.startswith(("eos/", "strength/", "elast"))]))

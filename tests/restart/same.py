@@ -3,8 +3,12 @@ import json
 import os
 import sys
 
-import h5py
-import numpy
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import needs  # noqa: E402
+
+needs.modules("h5py", "numpy")
+import h5py  # noqa: E402
+import numpy  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 INPUTS = os.path.join(HERE, "../../inputs")

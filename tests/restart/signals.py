@@ -7,8 +7,13 @@ import signal
 import subprocess
 import tempfile
 import time
+import sys
 
-import h5py
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import needs  # noqa: E402
+
+needs.modules("h5py", "numpy")
+import h5py  # noqa: E402
 
 from same import GAMUT, INPUTS, checkpoint_step, differences, done, report, run
 

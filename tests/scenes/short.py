@@ -1,7 +1,12 @@
 """Settings that make each scene of inputs/ coarse and short: for tests that run them all."""
 import os
+import sys
 
-import yaml
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import needs  # noqa: E402
+
+needs.modules("yaml")
+import yaml  # noqa: E402
 
 INPUTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../inputs")
 

@@ -4,9 +4,14 @@ import math
 import os
 import re
 import tempfile
+import sys
 
-import h5py
-import numpy
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import needs  # noqa: E402
+
+needs.modules("h5py", "numpy")
+import h5py  # noqa: E402
+import numpy  # noqa: E402
 
 from scenes import (DRIVER, PLATE, STRENGTH, column, content, runs_of, summary, table,
                     write)

@@ -5,12 +5,12 @@ import sys
 import tempfile
 import xml.etree.ElementTree as tree
 
-try:
-    import h5py
-    import numpy
-except ImportError:
-    print("1..0 # SKIP h5py and numpy are not installed")
-    sys.exit(0)
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import needs  # noqa: E402
+
+needs.modules("h5py", "numpy")
+import h5py  # noqa: E402
+import numpy  # noqa: E402
 
 checks = 0
 failures = 0

@@ -5,7 +5,9 @@ import os
 
 import scenes  # before numpy: it skips the test where it is missing
 import numpy
-import yaml
+
+scenes.needs.modules("yaml")
+import yaml  # noqa: E402
 
 METAL = {"density": "8000 kg/m3", "eos": {"model": "linear", "bulk_modulus": "140 GPa"},
          "strength": {"model": "von_mises", "yield_stress": "90 MPa",

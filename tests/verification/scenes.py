@@ -7,14 +7,11 @@ import subprocess
 import sys
 import tempfile
 
-try:
-    import h5py  # noqa: F401
-    import numpy  # noqa: F401
-except ImportError:
-    print("1..0 # SKIP h5py and numpy are not installed")
-    sys.exit(0)
-
 HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(1, os.path.join(HERE, ".."))
+import needs  # noqa: E402
+
+needs.modules("h5py", "numpy")
 TREE = os.path.abspath(os.environ.get("srcdir", os.path.join(HERE, "../..")))
 GAMUT = os.environ.get("GAMUT", os.path.join(TREE, "build/gamut"))
 INPUTS = os.path.join(TREE, "inputs")
