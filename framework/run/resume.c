@@ -76,6 +76,10 @@ static gamut_status get_clock(const struct reading_back *r)
   int64_t whole[RESTART_WHOLES];
   TRY(fill(r, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
   TRY(fill(r, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
+  if (!isfinite(real[0]) || !isfinite(real[1])) {
+    status = trace_fail(run->trace, GAMUT_OUTPUT, "the time in the checkpoint is damaged");
+    goto done;
+  }
   if (run->end > 0.0 && run->end < real[0]) {
     status = trace_fail_at(run->trace, GAMUT_SCENE, NULL, "solver.end",
                            "a later end, or --force to run the scene anew",
@@ -106,6 +110,17 @@ static gamut_status get_ledger(const struct reading_back *r)
   return status;
 }
 
+/* What history_tell relies on. `last`: every, time, value, whether there is one. */
+static bool history_is_sound(const double last[4], const double *time, size_t count)
+{
+  if (!isfinite(last[0]) || last[0] < 0.0 || !isfinite(last[1]) || (last[3] != 0.0 && count == 0))
+    return false;
+  for (size_t i = 0; i < count; i++)
+    if (!isfinite(time[i]))
+      return false;
+  return true;
+}
+
 static gamut_status get_history(const struct reading_back *r, struct history *h)
 {
   gamut_status status;
@@ -117,7 +132,10 @@ static gamut_status get_history(const struct reading_back *r, struct history *h)
   TRY(fill(r, restart_path(path, "quantities", name, "last"), CHECKPOINT_REAL, last, 4));
   TRY(get(r, restart_path(path, "quantities", name, "axis"), CHECKPOINT_REAL, &time, &times));
   TRY(get(r, restart_path(path, "quantities", name, "value"), CHECKPOINT_REAL, &value, &values));
-  if (times != values || !history_go_on(h, r->run->end, last[0], time, value, times))
+  if (times != values || !history_is_sound(last, time, times))
+    status = trace_fail(r->run->trace, GAMUT_OUTPUT, "the curve '%s' in the checkpoint is damaged",
+                        name);
+  else if (!history_go_on(h, r->run->end, last[0], time, value, times))
     status = trace_fail(r->run->trace, GAMUT_INTERNAL, "out of memory for the curve '%s'", name);
   h->last_time = last[1];
   h->last_value = last[2];
