@@ -1,23 +1,22 @@
-#include <errno.h>
 #include <stdio.h>
-#include <string.h>
+#include <stdlib.h>
 
 #include "command/options.h"
 #include "scene/scene.h"
+#include "store/file.h"
 
 static gamut_status write_file(struct command *command, const char *name)
 {
-  FILE *file = fopen(name, "w");
-  if (!file)
-    return trace_fail(command->trace, GAMUT_OUTPUT, "cannot write '%s': %s", name, strerror(errno));
-  schema_write(command->registry, file);
-  errno = 0;
-  bool failed = ferror(file) != 0;
-  failed = fclose(file) != 0 || failed;
-  if (!failed)
-    return GAMUT_OK;
-  return trace_fail(command->trace, GAMUT_OUTPUT, "cannot write '%s': %s", name,
-                    errno ? strerror(errno) : "write error");
+  char *text = NULL;
+  size_t size = 0;
+  FILE *memory = open_memstream(&text, &size);
+  if (memory)
+    schema_write(command->registry, memory);
+  gamut_status status = memory && fclose(memory) == 0
+                            ? file_write(name, text, size, command->trace)
+                            : trace_fail(command->trace, GAMUT_INTERNAL, "out of memory");
+  free(text);
+  return status;
 }
 
 gamut_status command_schema(struct command *command)

@@ -6,6 +6,7 @@
 #include <gsl/gsl_errno.h>
 #include <hdf5.h>
 
+#include "error/exclusive.h"
 #include "registry/registry.h"
 #include "run/run.h"
 #include "scene/scene.h"
@@ -26,6 +27,7 @@ const char *gamut_version(void)
 
 struct gamut_session *gamut_session_new(const char *plugin_path)
 {
+  EXCLUSIVE;
   char why[256];
   const struct registry_options options = {.plugin_path = plugin_path, .user_plugins = true};
   struct gamut_session *session = calloc(1, sizeof *session);
@@ -80,15 +82,35 @@ static gamut_status end(struct gamut_session *session, gamut_status status)
   return worst != GAMUT_OK ? worst : status;
 }
 
-/* The request's overrides; freed by overrides_free. */
+static const char no_session[] = "error: the session is null\n";
+static const struct gamut_run_request nothing_asked;
+
+/* What a program got wrong. A null request asks for nothing; nulls in it are named. */
+static gamut_status check_arguments(const struct gamut_session *session, const char *scene,
+                                    const struct gamut_run_request *request)
+{
+  if (!scene)
+    return trace_fail(session->trace, GAMUT_USAGE, "the name of the scene is null");
+  if (request->sets > 0 && !request->set)
+    return trace_fail(session->trace, GAMUT_USAGE, "the request has %zu sets, but `set` is null",
+                      request->sets);
+  for (size_t i = 0; i < request->sets; i++)
+    if (!request->set[i])
+      return trace_fail(session->trace, GAMUT_USAGE, "set %zu of the request is null", i);
+  if (request->threads < 0)
+    return trace_fail(session->trace, GAMUT_USAGE, "the request has %d threads", request->threads);
+  return GAMUT_OK;
+}
+
 /* Reads a scene, and the study that it asks for, which is null for a run of its own. */
 static gamut_status read_scene(struct gamut_session *session, const char *file,
                                const struct gamut_run_request *request, struct scene **scene,
                                struct study **study)
 {
   gamut_status status = GAMUT_OK;
-  struct override_list list;
+  struct override_list list = {0};
   const struct study_options options = {.threads = request->threads, .force = request->force != 0};
+  TRY(check_arguments(session, file, request));
   TRY(overrides_read(request->set, request->sets, session->trace, &list));
   TRY(scene_read(file, list.override, list.count, session->registry, session->units, session->trace,
                  scene));
@@ -104,6 +126,9 @@ gamut_status gamut_check_scene(struct gamut_session *session, const char *file,
 {
   struct scene *scene = NULL;
   struct study *study = NULL;
+  if (!session)
+    return GAMUT_USAGE;
+  request = request ? request : &nothing_asked;
   gamut_status status = begin(session);
   if (status == GAMUT_OK)
     status = read_scene(session, file, request, &scene, &study);
@@ -132,6 +157,10 @@ static gamut_status run_and_record(struct gamut_session *session, struct scene *
   marched = run_march(run, session->trace);
   run_warn(run, session->trace);
   *summary = run_summary(run, marched, session->registry);
+  if (!*summary) {
+    status = trace_fail(session->trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
   if (store) {
     struct history *const *history = run_histories(run, &count);
     TRY(store_histories(store, history, count, session->trace));
@@ -150,7 +179,12 @@ gamut_status gamut_run_scene(struct gamut_session *session, const char *file,
 {
   struct scene *scene = NULL;
   struct study *study = NULL;
+  char *unwanted = NULL;
+  summary = summary ? summary : &unwanted;
   *summary = NULL;
+  if (!session)
+    return GAMUT_USAGE;
+  request = request ? request : &nothing_asked;
   gamut_status status = begin(session);
   if (status == GAMUT_OK)
     status = read_scene(session, file, request, &scene, &study);
@@ -163,11 +197,14 @@ gamut_status gamut_run_scene(struct gamut_session *session, const char *file,
   }
   study_free(study);
   scene_free(scene);
+  free(unwanted);
   return end(session, status);
 }
 
 const char *gamut_messages(const struct gamut_session *session)
 {
+  if (!session)
+    return no_session;
   return session->messages ? session->messages : "";
 }
 

@@ -9,6 +9,7 @@
 #include <muParserDLL.h>
 
 #include "error/error.h"
+#include "error/exclusive.h"
 
 /* muParser's C interface copies names and messages, unchecked, to a buffer of 2048 bytes: a formula
  * must be so short that no word of it can run over. */
@@ -289,15 +290,13 @@ no_memory:
 struct expression *expression_new(const char *text, const char *const *names, size_t count,
                                   char *why, size_t size)
 {
-  struct expression *expression;
-#pragma omp critical(gamut_expression)
-  expression = make(text, names, count, why, size);
-  return expression;
+  EXCLUSIVE;
+  return make(text, names, count, why, size);
 }
 
 void expression_free(struct expression *expression)
 {
-#pragma omp critical(gamut_expression)
+  EXCLUSIVE;
   discard(expression);
 }
 

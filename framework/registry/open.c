@@ -12,6 +12,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "error/exclusive.h"
 #include "registry/elf.h"
 #include "registry/guard.h"
 #include "registry/inside.h"
@@ -353,10 +354,8 @@ static gamut_status open_once(struct registry *registry, const struct descriptor
 gamut_status registry_open(struct registry *registry, const struct descriptor *descriptor,
                            struct trace *trace, const struct gamut_plugin **plugin)
 {
-  gamut_status status;
-#pragma omp critical(gamut_registry)
-  status = open_once(registry, descriptor, trace, plugin);
-  return status;
+  EXCLUSIVE;
+  return open_once(registry, descriptor, trace, plugin);
 }
 
 bool registry_object(const struct registry *registry, const struct descriptor *descriptor,

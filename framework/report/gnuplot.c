@@ -1,5 +1,4 @@
 #include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
@@ -14,12 +13,19 @@ enum { EXIT_NOT_FOUND = 127, EXIT_NO_FOLDER = 126 };
 static void run_gnuplot(const char *folder, char *const *arguments)
 {
   int log;
-  if (chdir(folder) != 0 || (log = open("gnuplot.log", O_WRONLY | O_CREAT | O_TRUNC, 0666)) < 0)
+  if (chdir(folder) != 0 || (log = file_create("gnuplot.log")) < 0)
     _exit(EXIT_NO_FOLDER);
   dup2(log, STDOUT_FILENO);
   dup2(log, STDERR_FILENO);
   execvp(arguments[0], arguments);
   _exit(EXIT_NOT_FOUND);
+}
+
+static void free_arguments(char **arguments)
+{
+  for (size_t i = 0; arguments && arguments[i]; ++i)
+    free(arguments[i]);
+  free(arguments);
 }
 
 /* "gnuplot A.gp B.gp": arguments in one allocation of pointers, each string its own. */
@@ -33,7 +39,9 @@ static char **script_arguments(const struct plot *plot)
     if (good)
       snprintf(arguments[i + 1], size, "%s.gp", plot->name[i]);
   }
-  return arguments;
+  if (!good)
+    free_arguments(arguments);
+  return good ? arguments : NULL;
 }
 
 static gamut_status judge(const struct plot *plot, int status)
@@ -59,8 +67,26 @@ static gamut_status judge(const struct plot *plot, int status)
   return GAMUT_OK;
 }
 
+/* gnuplot would write through a link that has a picture's name. */
+static gamut_status clear_names(const struct plot *plot)
+{
+  gamut_status status = GAMUT_OK;
+  for (size_t i = 0; i < plot->count && status == GAMUT_OK; ++i) {
+    char file[300];
+    snprintf(file, sizeof file, "%s.png", plot->name[i]);
+    char *path = file_path(plot->folder, file);
+    status = path ? file_remove(path, plot->trace)
+                  : trace_fail(plot->trace, GAMUT_INTERNAL, "out of memory");
+    free(path);
+  }
+  return status;
+}
+
 gamut_status plot_run(const struct plot *plot)
 {
+  gamut_status status = clear_names(plot);
+  if (status != GAMUT_OK)
+    return status;
   char **arguments = script_arguments(plot);
   int result = 0;
   pid_t child = arguments ? fork() : -1;
@@ -70,9 +96,7 @@ gamut_status plot_run(const struct plot *plot)
     while (waitpid(child, &result, 0) < 0 && errno == EINTR)
       continue;
   }
-  for (size_t i = 0; arguments && arguments[i]; ++i)
-    free(arguments[i]);
-  free(arguments);
+  free_arguments(arguments);
   if (child < 0)
     return trace_fail(plot->trace, GAMUT_INTERNAL, "cannot start gnuplot: %s", strerror(errno));
   return judge(plot, result);

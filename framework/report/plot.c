@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "report/report.h"
 #include "store/file.h"
@@ -31,10 +32,13 @@ FILE *plot_file(const struct plot *plot, const char *name, const char *end)
   char file[300];
   snprintf(file, sizeof file, "%s%s", name, end);
   char *path = file_path(plot->folder, file);
-  FILE *opened = path ? fopen(path, "w") : NULL;
+  int made = path ? file_create(path) : -1;
+  FILE *opened = made >= 0 ? fdopen(made, "w") : NULL;
   if (!opened)
     trace_fail(plot->trace, GAMUT_OUTPUT, "cannot write '%s/%s': %s", plot->folder, file,
                strerror(errno));
+  if (!opened && made >= 0)
+    close(made);
   free(path);
   return opened;
 }
@@ -154,7 +158,8 @@ gamut_status report_plot(const char *folder, const struct plot_options *options,
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
     goto done;
   }
-  TRY(folder_make(plot.folder, trace));
+  /* the name of the folder inside is ours: no link that waits there is followed */
+  TRY(plot.folder == inside ? folder_make_inside(inside, trace) : folder_make(plot.folder, trace));
   TRY(draw_body(&plot, result, options));
   TRY(plot_histories(&plot, history, histories));
   if (plot.count == 0)

@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "error/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -125,6 +126,7 @@ void checkpoint_close(struct checkpoint *checkpoint)
 {
   if (!checkpoint)
     return;
+  EXCLUSIVE;
   if (checkpoint->file >= 0 && !checkpoint->broken)
     H5Fclose(checkpoint->file);
   if (checkpoint->writing && checkpoint->path)
@@ -137,6 +139,7 @@ void checkpoint_close(struct checkpoint *checkpoint)
 gamut_status checkpoint_begin(const char *folder, size_t bytes, struct trace *trace,
                               struct checkpoint **begun)
 {
+  EXCLUSIVE;
   gamut_status status = GAMUT_OK;
   struct checkpoint *checkpoint = checkpoint_new(folder, CHECKPOINT_PARTIAL);
   *begun = NULL;
@@ -171,6 +174,7 @@ gamut_status checkpoint_put(struct checkpoint *checkpoint, const char *path,
                             enum checkpoint_kind kind, const void *data, size_t count,
                             struct trace *trace)
 {
+  EXCLUSIVE;
   hsize_t extent = count;
   hid_t links = H5Pcreate(H5P_LINK_CREATE), space = H5Screate_simple(1, &extent, NULL);
   H5Pset_create_intermediate_group(links, 1);
@@ -216,6 +220,7 @@ static int put_in_place(const struct checkpoint *checkpoint)
 
 gamut_status checkpoint_end(struct checkpoint *checkpoint, struct trace *trace)
 {
+  EXCLUSIVE;
   gamut_status status;
   int fault;
   TRY(hdf5_flush(checkpoint->file, checkpoint->path, trace));
@@ -280,6 +285,7 @@ static gamut_status choose(const char *last, const char *previous, struct trace 
 
 gamut_status checkpoint_open(const char *folder, struct trace *trace, struct checkpoint **opened)
 {
+  EXCLUSIVE;
   gamut_status status = GAMUT_OK;
   char *last = file_path(folder, CHECKPOINT_FILE),
        *previous = file_path(folder, CHECKPOINT_PREVIOUS);
@@ -298,6 +304,7 @@ gamut_status checkpoint_open(const char *folder, struct trace *trace, struct che
 
 bool checkpoint_has(const struct checkpoint *checkpoint, const char *path)
 {
+  EXCLUSIVE;
   hid_t found = H5Dopen2(checkpoint->file, path, H5P_DEFAULT);
   if (found >= 0)
     H5Dclose(found);
@@ -309,6 +316,7 @@ gamut_status checkpoint_get(const struct checkpoint *checkpoint, const char *pat
                             enum checkpoint_kind kind, void **data, size_t *count,
                             struct trace *trace)
 {
+  EXCLUSIVE;
   size_t size = kind == CHECKPOINT_BYTES ? 1 : 8;
   hid_t opened = H5Dopen2(checkpoint->file, path, H5P_DEFAULT);
   hid_t space = opened < 0 ? -1 : H5Dget_space(opened),

@@ -140,6 +140,24 @@ done:
   return status;
 }
 
+gamut_status file_write(const char *path, const char *text, size_t size, struct trace *trace)
+{
+  struct stat information;
+  const char *slash = strrchr(path, '/');
+  if (lstat(path, &information) == 0 && !S_ISREG(information.st_mode))
+    return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL, "another name",
+                         "cannot write '%s': it is %s, not a file", path,
+                         S_ISLNK(information.st_mode)   ? "a link, which is not followed"
+                         : S_ISDIR(information.st_mode) ? "a folder"
+                                                        : "a device or a pipe");
+  char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+  gamut_status status =
+      folder ? file_replace(folder, slash ? slash + 1 : path, text, size, trace)
+             : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  free(folder);
+  return status;
+}
+
 gamut_status file_remove(const char *path, struct trace *trace)
 {
   if (unlink(path) == 0 || errno == ENOENT)

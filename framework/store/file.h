@@ -30,6 +30,9 @@ int file_sync(int file);
 gamut_status file_replace(const char *folder, const char *name, const char *text, size_t size,
                           struct trace *);
 
+/* The same for a file that a user named, which may be there, but as a file: no link or device. */
+gamut_status file_write(const char *path, const char *text, size_t size, struct trace *);
+
 /* Removes a file; one that is not there is fine. */
 gamut_status file_remove(const char *path, struct trace *);
 

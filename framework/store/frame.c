@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/exclusive.h"
 #include "field/vocabulary.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"
@@ -181,6 +182,7 @@ gamut_status store_frame(struct store *store, double time, uint64_t step,
                          const struct frame_set *set, size_t sets, const struct frame_field *field,
                          size_t fields, struct trace *trace)
 {
+  EXCLUSIVE;
   gamut_status status = GAMUT_OK;
   size_t count = 0, columns = 3;
   uint64_t sum;

@@ -1,6 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -95,6 +96,7 @@ static herr_t write_history(hid_t parent, const struct history *history)
 gamut_status store_histories(struct store *store, struct history *const *history, size_t count,
                              struct trace *trace)
 {
+  EXCLUSIVE;
   herr_t result = 0;
   uint64_t sum;
   size_t bytes = 65536;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -114,6 +115,7 @@ done:
 gamut_status store_reopen(struct store *store, const struct store_place *place, struct trace *trace,
                           bool *damaged)
 {
+  EXCLUSIVE;
   gamut_status status;
   hid_t old = hdf5_open(store->path);
   *damaged = file_exists(store->path) && (old < 0 || H5Aexists(old, "run") <= 0);
@@ -136,6 +138,7 @@ done:
 
 gamut_status store_join(struct store *store, struct trace *trace)
 {
+  EXCLUSIVE;
   gamut_status status;
   /* what it says is no longer so */
   TRY(folder_remove_file(store->folder, RESULT_SUMMARY, trace));

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -22,6 +23,7 @@ static size_t count_links(hid_t file, const char *path)
 
 gamut_status result_open(const char *folder, struct trace *trace, struct result **opened)
 {
+  EXCLUSIVE;
   gamut_status status = GAMUT_OK;
   *opened = NULL;
   struct result *result = calloc(1, sizeof *result);
@@ -49,6 +51,7 @@ void result_close(struct result *result)
 {
   if (!result)
     return;
+  EXCLUSIVE;
   if (result->file >= 0)
     H5Fclose(result->file);
   free(result->path);
@@ -167,6 +170,7 @@ static bool read_all(hid_t parent, size_t links, bool member, struct reading *re
 gamut_status result_histories(const struct result *result, struct trace *trace,
                               struct result_history **histories, size_t *count)
 {
+  EXCLUSIVE;
   *histories = NULL;
   *count = 0;
   bool study = H5Lexists(result->file, "study", H5P_DEFAULT) > 0;

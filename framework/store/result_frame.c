@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/exclusive.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/result_state.h"
@@ -200,6 +201,7 @@ static gamut_status find_field(hid_t frame, size_t bodies, const char *field, st
 gamut_status result_frame_read(const struct result *result, size_t index, const char *field,
                                struct trace *trace, struct result_frame **read)
 {
+  EXCLUSIVE;
   char name[32], path[48];
   H5G_info_t information = {0};
   *read = NULL;

@@ -5,6 +5,7 @@
 #include <sys/random.h>
 #include <unistd.h>
 
+#include "error/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -114,6 +115,7 @@ done:
 
 gamut_status store_begin(struct store *store, bool force, struct trace *trace)
 {
+  EXCLUSIVE;
   gamut_status status;
   TRY(folder_make_way(store->folder, force, trace));
   TRY(folder_tidy(store->folder, trace));
@@ -141,6 +143,7 @@ done:
 
 gamut_status store_renew(struct store *store, struct trace *trace)
 {
+  EXCLUSIVE;
   gamut_status status;
   store_rest(store);
   TRY(folder_tidy(store->folder, trace));
@@ -164,11 +167,13 @@ struct store_place store_place_of(const struct store *store)
 
 gamut_status store_sync(struct store *store, struct trace *trace)
 {
+  EXCLUSIVE;
   return hdf5_sync(store->file, store->path, trace);
 }
 
 void store_rest(struct store *store)
 {
+  EXCLUSIVE;
   if (store->file >= 0 && !store->broken)
     H5Fclose(store->file);
   store->file = -1;
@@ -199,6 +204,7 @@ const char *store_folder(const struct store *store)
 static gamut_status keep_text(struct store *store, const char *name, const char *dataset,
                               const char *text, struct trace *trace)
 {
+  EXCLUSIVE;
   gamut_status status = file_replace(store->folder, name, text, strlen(text), trace);
   herr_t result = 0;
   if (status == GAMUT_OK)
@@ -251,6 +257,7 @@ static bool frames_are_there(const struct store *store, hid_t file)
 
 gamut_status store_finish(struct store *store, struct trace *trace)
 {
+  EXCLUSIVE;
   gamut_status status;
   TRY(results_there(store, trace));
   TRY(hdf5_sync(store->file, store->path, trace));

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -106,6 +107,7 @@ gamut_status store_table(struct store *store, const char *file, const char *grou
                          const struct table_column *column, size_t columns, size_t rows,
                          size_t above, struct trace *trace)
 {
+  EXCLUSIVE;
   size_t bytes = 65536;
   herr_t result = 0;
   gamut_status status = write_csv(store, file, column, columns, rows, trace);
@@ -206,6 +208,7 @@ static gamut_status write_curves_csv(struct store *store, const struct table_cur
 gamut_status store_curves(struct store *store, const char *group, const struct table_curve *curve,
                           size_t curves, struct trace *trace)
 {
+  EXCLUSIVE;
   gamut_status status = GAMUT_OK;
   size_t bytes = 65536;
   uint64_t sum;

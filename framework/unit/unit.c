@@ -1,40 +1,39 @@
 #include "unit/unit.h"
 
 #include <math.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 
 #include <udunits2.h>
 
+#include "error/exclusive.h"
 #include "unit/number.h"
 
-/* UDUNITS parses with static variables and reads numbers by the locale of the thread: `lock` and
- * `c` stand around every call. */
+/* UDUNITS parses with static variables and reads numbers by the locale of the thread: `enter` and
+ * `leave` stand around every call. */
 struct units {
   ut_system *system;
   locale_t c;
-  pthread_mutex_t lock;
 };
 
 static locale_t enter(const struct units *units)
 {
-  pthread_mutex_lock((pthread_mutex_t *)&units->lock);
+  exclusive_begin();
   return uselocale(units->c);
 }
 
-static void leave(const struct units *units, locale_t before)
+static void leave(locale_t before)
 {
   uselocale(before);
-  pthread_mutex_unlock((pthread_mutex_t *)&units->lock);
+  exclusive_end(NULL);
 }
 
 struct units *units_new(char *why, size_t size)
 {
+  EXCLUSIVE;
   struct units *units = calloc(1, sizeof *units);
-  if (units == NULL || pthread_mutex_init(&units->lock, NULL) != 0) {
+  if (units == NULL) {
     snprintf(why, size, "no memory left for the unit database");
-    free(units);
     return NULL;
   }
   ut_set_error_message_handler(ut_ignore);
@@ -42,7 +41,7 @@ struct units *units_new(char *why, size_t size)
   if (units->c != (locale_t)0) {
     locale_t before = enter(units);
     units->system = ut_read_xml(NULL);
-    leave(units, before);
+    leave(before);
   }
   if (units->system == NULL) {
     snprintf(why, size,
@@ -58,10 +57,10 @@ void units_free(struct units *units)
 {
   if (units == NULL)
     return;
+  EXCLUSIVE;
   ut_free_system(units->system);
   if (units->c != (locale_t)0)
     freelocale(units->c);
-  pthread_mutex_destroy(&units->lock);
   free(units);
 }
 
@@ -216,7 +215,7 @@ static enum unit_result read_quantity(const struct units *units, const char *tex
   if (*rest != '\0') {
     locale_t before = enter(units);
     result = convert(units, rest, unit, as == AS_DIFFERENCE, &number);
-    leave(units, before);
+    leave(before);
   }
   if (result == UNIT_OK)
     *value = number;
@@ -246,6 +245,6 @@ bool unit_alike(const struct units *units, const char *one, const char *other)
   double value = 1;
   locale_t before = enter(units);
   enum unit_result result = convert(units, one, other, false, &value);
-  leave(units, before);
+  leave(before);
   return result == UNIT_OK;
 }

@@ -1,6 +1,7 @@
 /* The library as a program that embeds it sees it. */
 #include <gamut/gamut.h>
 
+#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,6 +46,121 @@ static void test_study(void)
   unlink(file);
 }
 
+static void expect(struct gamut_session *session, gamut_status got, gamut_status wanted,
+                   const char *name)
+{
+  tap_ok(got == wanted && *gamut_messages(session), "%s: status %d, %s", name, (int)got,
+         gamut_messages(session));
+}
+
+static void test_nulls(void)
+{
+  const char *holes[] = {"solver.steps=4", NULL};
+  const struct gamut_run_request no_list = {.sets = 2}, hole = {.set = holes, .sets = 2},
+                                 backwards = {.threads = -1};
+  char *summary = NULL;
+  struct gamut_session *session = gamut_session_new(NULL);
+  expect(NULL, gamut_run_scene(NULL, "x.yaml", &no_list, &summary), GAMUT_USAGE, "no session");
+  expect(NULL, gamut_check_scene(NULL, "x.yaml", NULL), GAMUT_USAGE, "no session to check with");
+  expect(session, gamut_run_scene(session, NULL, NULL, NULL), GAMUT_USAGE, "no scene");
+  expect(session, gamut_check_scene(session, NULL, NULL), GAMUT_USAGE, "no scene to check");
+  expect(session, gamut_run_scene(session, "x.yaml", &no_list, &summary), GAMUT_USAGE, "no list");
+  expect(session, gamut_run_scene(session, "x.yaml", &hole, &summary), GAMUT_USAGE, "a hole in it");
+  expect(session, gamut_check_scene(session, "x.yaml", &backwards), GAMUT_USAGE, "threads below none");
+  expect(session, gamut_run_scene(session, "no/such.yaml", NULL, NULL), GAMUT_SCENE,
+         "no request and no summary are fine");
+  gamut_session_free(session);
+}
+
+/* One of several sessions at work at the same time: a run with results on the disk, a study, a
+ * scene that is wrong, plugins and units each time. */
+enum { SESSIONS = 4, TURNS = 3 };
+
+struct at_work {
+  const char *plugins, *file;
+  char folder[64];
+  char *value; /* of the study: the same in all sessions */
+  int faults;
+};
+
+static const char bar[] = "gamut: 1\n"
+                          "solver: {model: material_driver, end: 1 ms, steps: 4,\n"
+                          "         control: {xy: {velocity_gradient: 100 1/s}}}\n"
+                          "materials:\n"
+                          "  metal: {density: 8000 kg/m3, eos: {model: linear, bulk_modulus: 140 GPa},\n"
+                          "          elasticity: {model: hypoelastic, shear_modulus: 48 GPa}}\n"
+                          "bodies: {sample: {material: metal}}\n"
+                          "quantities: {shear: {measure: stress_xy, body: sample, reduce: at end}}\n"
+                          "outputs: {frames: 4, fields: [stress]}\n";
+
+static void *work(void *self)
+{
+  struct at_work *own = self;
+  for (int turn = 0; turn < TURNS; turn++) {
+    char *summary = NULL, *run = NULL, other[80];
+    struct gamut_session *session = gamut_session_new(own->plugins);
+    const struct gamut_run_request request = {.threads = 1, .folder = own->folder, .force = 1};
+    snprintf(other, sizeof other, "%s.yaml", own->folder);
+    own->faults += gamut_run_scene(session, other, &request, &run) != GAMUT_OK;
+    own->faults += gamut_check_scene(session, "no/such.yaml", NULL) != GAMUT_SCENE;
+    own->faults +=
+        gamut_run_scene(session, own->file, &(struct gamut_run_request){.threads = 1},
+                        &summary) != GAMUT_OK;
+    const char *mean = summary ? strstr(summary, "\"mean\"") : NULL;
+    free(own->value);
+    own->value = mean ? strndup(mean, strcspn(mean, ",")) : NULL;
+    gamut_free(summary);
+    gamut_free(run);
+    gamut_session_free(session);
+  }
+  return NULL;
+}
+
+static void put(const char *name, const char *text)
+{
+  FILE *file = fopen(name, "w");
+  if (file) {
+    fputs(text, file);
+    fclose(file);
+  }
+}
+
+static void test_threads(void)
+{
+  const char *folder = getenv("builddir");
+  char home[] = P_tmpdir "/gamut-embed-XXXXXX", study[80], command[120];
+  struct at_work own[SESSIONS] = {0};
+  pthread_t thread[SESSIONS];
+  int faults = 0;
+  if (!folder || !mkdtemp(home)) {
+    tap_skip("sessions in threads", "the environment names no builddir");
+    return;
+  }
+  snprintf(study, sizeof study, "%s/study.yaml", home);
+  put(study, scene);
+  for (int i = 0; i < SESSIONS; i++) {
+    own[i].plugins = folder;
+    own[i].file = study;
+    snprintf(own[i].folder, sizeof own[i].folder, "%s/%d", home, i);
+    snprintf(command, sizeof command, "%s.yaml", own[i].folder);
+    put(command, bar);
+  }
+  for (int i = 0; i < SESSIONS; i++)
+    pthread_create(&thread[i], NULL, work, &own[i]);
+  for (int i = 0; i < SESSIONS; i++)
+    pthread_join(thread[i], NULL);
+  for (int i = 0; i < SESSIONS; i++) {
+    faults += own[i].faults;
+    faults += !own[i].value || !own[0].value || strcmp(own[i].value, own[0].value) != 0;
+  }
+  tap_ok(faults == 0, "%d sessions in threads, %d times a run and a study: %d faults (allowed 0), %s",
+         SESSIONS, TURNS, faults, own[0].value ? own[0].value : "no mean");
+  for (int i = 0; i < SESSIONS; i++)
+    free(own[i].value);
+  snprintf(command, sizeof command, "rm -rf %s", home);
+  tap_ok(system(command) == 0, "the test's folder is removed");
+}
+
 int main(void)
 {
   struct gamut_run_request request = {0};
@@ -66,5 +182,7 @@ int main(void)
   gamut_session_free(NULL);
   gamut_free(NULL);
   test_study();
+  test_nulls();
+  test_threads();
   return tap_done();
 }

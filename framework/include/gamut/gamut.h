@@ -9,7 +9,9 @@
  *   gamut_session_free(session);
  *
  * Link with `pkg-config --cflags --libs gamut`. A session is for one thread at a time; several
- * sessions may live at once, but scenes are read and plugins opened by one thread at a time. */
+ * sessions may live and run at once, each in a thread of its own: what they share is locked inside.
+ * A null session, scene or `set` is refused with GAMUT_USAGE and a message; a null request is one
+ * that is all zero; a null summary is one that nobody wants. */
 #ifndef GAMUT_GAMUT_H
 #define GAMUT_GAMUT_H
 
