@@ -227,7 +227,7 @@ static gamut_status work_out(struct gamut_run *run, const struct pointwise *poin
       const struct tree *node = values->value[wrong].node;
       snprintf(where, sizeof where, "%s.%s", values->path, values->value[wrong].parameter->name);
       status = trace_fail_at(run->trace, GAMUT_SCENE, node ? &node->place : NULL, where,
-                             "a smaller spread, or 'truncate'",
+                             "a smaller spread, or truncate: [lower, upper] that keeps to it",
                              "at point %lld (%.6g, %.6g, %.6g) m: %s", (long long)id[i],
                              position[0][i], position[1][i], position[2][i], why);
       goto done;

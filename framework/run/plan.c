@@ -109,7 +109,14 @@ static json_t *plugins_json(const struct gamut_run *run)
   return all;
 }
 
-char *run_explain_json(struct gamut_run *run)
+static void tell_forecast(const struct gamut_run *run, bool good, const struct forecast *f,
+                          struct run_forecast *told)
+{
+  if (told)
+    *told = (struct run_forecast){good, f->steps, f->seconds, run_cost_of(run).bytes};
+}
+
+char *run_explain_json(struct gamut_run *run, struct run_forecast *told)
 {
   struct forecast f;
   size_t stored;
@@ -117,6 +124,7 @@ char *run_explain_json(struct gamut_run *run)
   struct run_cost cost = run_cost_of(run);
   bool good = forecast_steps(run, &f);
   struct run_cost after = run_cost_of(run);
+  tell_forecast(run, good, &f, told);
   json_t *root = json_object();
   json_object_set_new(root, "scene", json_string(run->scene->file));
   json_object_set_new(root, "solver", json_string(run->scene->solver.descriptor->id));
@@ -229,7 +237,7 @@ static void print_memory(const struct gamut_run *run, size_t declared, FILE *fil
           "together", cost.bytes, cost.bytes_per_point, declared);
 }
 
-void run_explain(struct gamut_run *run, FILE *file)
+void run_explain(struct gamut_run *run, FILE *file, struct run_forecast *told)
 {
   struct forecast f;
   size_t stored;
@@ -245,6 +253,7 @@ void run_explain(struct gamut_run *run, FILE *file)
   print_off(run, file);
   print_fields(run, file);
   bool good = forecast_steps(run, &f);
+  tell_forecast(run, good, &f, told);
   print_chance(run, file);
   print_memory(run, declared_bytes(run, &stored), file);
   if (!good)

@@ -77,8 +77,10 @@ double run_time(const struct gamut_run *);
 /* summary.json of architecture.md section 7, as text to be freed. */
 char *run_summary(const struct gamut_run *, gamut_status, const struct registry *);
 /* `gamut explain`: for people, or JSON. Needs run_new only. */
-void run_explain(struct gamut_run *, FILE *);
-char *run_explain_json(struct gamut_run *);
+struct run_forecast { bool known; double steps, seconds; size_t bytes; };
+/* `told`, which may be null, gets what the run would cost. */
+void run_explain(struct gamut_run *, FILE *, struct run_forecast *told);
+char *run_explain_json(struct gamut_run *, struct run_forecast *told);
 
 struct ledger_line {
   char *account, *name, *unit; enum gamut_ledger_role role; double value, start;

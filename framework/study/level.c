@@ -76,12 +76,18 @@ static gamut_status check_path(struct study *study, const struct tree *list)
                        "'%.200s' leads to nothing that can be set", list->key);
 }
 
+static const char *unit_of(const struct quantity *quantity)
+{
+  return quantity->measure && quantity->measure->unit ? quantity->measure->unit : "";
+}
+
 static bool same_quantities(const struct scene *one, const struct scene *other)
 {
   bool same = one->quantities == other->quantities;
   for (size_t i = 0; same && i < one->quantities; i++)
     same = strcmp(one->quantity[i].name, other->quantity[i].name) == 0 &&
-           one->quantity[i].reduction.kind == other->quantity[i].reduction.kind;
+           one->quantity[i].reduction.kind == other->quantity[i].reduction.kind &&
+           strcmp(unit_of(&one->quantity[i]), unit_of(&other->quantity[i])) == 0;
   return same;
 }
 
@@ -105,7 +111,7 @@ static gamut_status check_level(struct study *study, size_t number)
   const struct tree *node = level->override[0].node;
   if (status == GAMUT_OK && !same_quantities(study->scene, scene))
     status = trace_fail_at(study->trace, GAMUT_SCENE, &node->place, level->override[0].path, NULL,
-                           "every level of a study measures the same quantities");
+                           "every level of a study measures the same quantities, in one unit");
   if (status == GAMUT_OK && !knows_parameters(study->scene, scene))
     status = trace_fail_at(study->trace, GAMUT_SCENE, &node->place, level->override[0].path,
                            "state the spread in the scene itself",

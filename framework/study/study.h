@@ -55,6 +55,25 @@ void study_free(struct study *); /* accepts null */
 /* Runs to the estimator's end; folder null: nothing is written. GAMUT_NUMERICS if too many runs
  * failed, GAMUT_STOPPED if told to stop (study.log is then complete: --resume goes on). */
 gamut_status study_run(struct study *, const char *folder, struct trace *);
+/* What `gamut explain` looks at where runs stand for themselves: the scene of the first level, to
+ * be freed. Else null: the scene itself. */
+gamut_status study_member(struct study *, struct trace *, struct scene **);
+/* How many runs the estimator asks for where it is told nothing, and what they cost in all. Needs
+ * a run of the study's, planned, and its forecast. */
+struct study_forecast {
+  size_t runs;
+  bool more;      /* at least so many */
+  bool nominal;   /* and the run at the means */
+  int threads;    /* runs side by side */
+  double seconds; /* 0: not known */
+  double bytes;
+};
+gamut_status study_forecast(struct study *, const struct gamut_run *, const struct run_forecast *,
+                            struct study_forecast *);
+void study_explain(const struct study *, const struct study_forecast *, FILE *);
+/* A JSON object of a run with the member `study` added, to be freed. */
+char *study_explain_json(const struct study *, const struct study_forecast *, const char *run);
+
 /* summary.json with mean, variance and their errors, and the `study` entry; to be freed. */
 char *study_summary(const struct study *, gamut_status);
 

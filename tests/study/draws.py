@@ -156,7 +156,27 @@ def one_run(folder):
            "it is in no statistic: mean of the others, off by")
 
 
+def costs(folder):
+    """What explain says of a study: its runs, their cost, what is drawn."""
+    scene = point(folder, "costs", melt="{mean: 1083 degC, sd: 20 degC}", runs=5000)
+    told = gamut("explain", scene, "--json").json()
+    one, all_of_it = told["seconds"], told["study"]["seconds"]
+    threads = told["study"]["threads"]
+    report(told["study"]["runs"] == 5000 and told["study"]["nominal"], "explain counts the runs")
+    figure(abs(all_of_it / (one * (math.ceil(5000 / threads) + 1)) - 1), 1e-9,
+           "their time is that of one, by threads, off by")
+    report(told["study"]["bytes"] >= threads * told["bytes"], "their memory grows with the threads")
+    figure(abs(told["study"]["parameters"][0]["sd"] - 20), 1e-12, "the spread in K, off 20 by")
+    answer = gamut("explain", scene)
+    report("monte_carlo: 5000 runs and the run at the means" in answer.out
+           and "standard deviation 20 K" in answer.out, "for people too", answer)
+    sweep = gamut("explain", scene, "--json", "--set",
+                  "uncertainty.estimator={model: sweep, over: {solver.steps: [4, 8, 16]}}").json()
+    report(sweep["study"]["runs"] == 3 and not sweep["study"]["nominal"], "a sweep: its levels")
+
+
 with tempfile.TemporaryDirectory() as scratch:
+    costs(scratch)
     temperatures(scratch)
     constraint(scratch)
     constraint_with_others(scratch)

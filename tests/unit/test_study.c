@@ -67,6 +67,12 @@ static void test_matrix(void)
       worst = fmax(worst, fabs(sum - good[i * 3 + k]));
     }
   tap_absolute("factor times its transpose", worst, 0, 1e-15);
+  /* The third follows from the others. */
+  const double singular[9] = {1, 0, 0.6, 0, 1, -0.8, 0.6, -0.8, 1};
+  tap_ok(correlation_factor(singular, 3, lower), "a singular matrix has a factor");
+  tap_absolute("whose last variable has no part of its own", lower[8], 0, 1e-6);
+  tap_absolute("and follows the first", lower[6], 0.6, 1e-15);
+  tap_absolute("and the second", lower[7], -0.8, 1e-15);
 }
 
 static void test_draws(void)

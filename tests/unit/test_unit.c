@@ -55,6 +55,28 @@ static void test_values(const struct units *units)
   check(units, "1 GPa", "MPa", 1e9);
 }
 
+static void check_difference(const struct units *units, const char *text, const char *unit,
+                             double expected)
+{
+  double value = NAN;
+  char name[100];
+  enum unit_result result = unit_read_difference(units, text, unit, &value);
+  snprintf(name, sizeof name, "the difference '%s' in '%s' (result %d)", text, unit, (int)result);
+  tap_relative(name, value, expected, 1e-14);
+}
+
+static void test_differences(const struct units *units)
+{
+  check_difference(units, "20 degC", "K", 20);
+  check_difference(units, "36 degF", "K", 20);
+  check_difference(units, "20 K", "K", 20);
+  check_difference(units, "9 degR", "K", 5);
+  check_difference(units, "5 MPa", "Pa", 5e6);
+  check_difference(units, "2 J/(kg degC)", "J/(kg K)", 2);
+  check_difference(units, "12 %", "1", 0.12);
+  check_difference(units, "3", "1", 3);
+}
+
 static void test_refusals(const struct units *units)
 {
   static const char *const no_number[] = {
@@ -145,6 +167,7 @@ int main(void)
   if (!tap_ok(units != NULL, "the unit database %s", why))
     return tap_done();
   test_values(units);
+  test_differences(units);
   test_refusals(units);
   test_threads(units);
   test_locale(units);
