@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { OBJECT_MAX = 256 << 20 };
 
@@ -67,6 +68,11 @@ bool elf_read(struct elf_file *elf, const char *path)
   *elf = (struct elf_file){.why = "it cannot be read"};
   FILE *file = fopen(path, "rbe");
   long size = -1;
+  struct stat info;
+  if (file && fstat(fileno(file), &info) == 0) {
+    elf->owner = info.st_uid;
+    elf->mode = info.st_mode;
+  }
   if (file && fseek(file, 0, SEEK_END) == 0)
     size = ftell(file);
   if (size >= 0 && size <= OBJECT_MAX && fseek(file, 0, SEEK_SET) == 0) {

@@ -9,6 +9,7 @@
 struct elf_file {
   unsigned char *bytes; /* null where it is none, with the reason in `why` */
   size_t size;
+  unsigned owner, mode; /* of the file that was opened */
   const char *why;
 };
 

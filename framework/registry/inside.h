@@ -42,6 +42,9 @@ char *path_join(const char *one, const char *two);
 void *grow(void *list, size_t count, size_t size, bool *failed);
 bool is_folder(const char *path);
 bool is_file(const char *path);
+/* Why somebody else could change this file: the first part of its real path, folders and the file
+ * itself, that belongs to a stranger or that everybody may write; null where there is none. */
+const char *path_unsafe(const char *path, char *part, size_t size);
 
 /* Fills registry->root from the options and the environment. */
 gamut_status search_roots(struct registry *, const struct registry_options *, struct trace *);

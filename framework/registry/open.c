@@ -295,9 +295,29 @@ static gamut_status check_object(struct entry *entry, const char *file, struct t
     return refuse(entry, trace, "its shared object cannot be loaded: '%s': %s", file, elf.why);
   elf_imports(&elf, take_ending, &ending);
   elf_free(&elf);
+  /* What was read is what the path was judged by. */
+  struct stat info;
+  if (stat(file, &info) != 0 || info.st_uid != elf.owner || info.st_mode != elf.mode)
+    return refuse(entry, trace, "'%s' changes while it is opened", file);
   if (ending)
     return refuse(entry, trace, "'%s' calls %s(), by which a plugin would end the program", file,
                   ending);
+  return GAMUT_OK;
+}
+
+/* Whoever can change a folder on the way, the YAML or the shared object runs code as its user. */
+static gamut_status check_owners(struct entry *entry, const char *file, struct trace *trace)
+{
+  const char *const path[] = {file, entry->file};
+  for (size_t i = 0; i < sizeof path / sizeof path[0]; i++) {
+    char part[PATH_MAX];
+    const char *why = path_unsafe(path[i], part, sizeof part);
+    if (why)
+      return refuse(entry, trace,
+                    "'%s' %s; plugins, and the folders on the way to them, belong to you or root "
+                    "and may be written by their owner alone",
+                    part, why);
+  }
   return GAMUT_OK;
 }
 
@@ -306,14 +326,11 @@ static gamut_status open_entry(struct registry *registry, struct entry *entry, s
   const struct descriptor *d = entry->descriptor;
   char file[2 * PATH_MAX], symbol[160];
   lt_dlhandle handle = NULL;
-  struct stat info;
   gamut_status status = GAMUT_OK;
   if (!find_object(entry, trace, file, sizeof file))
     return refuse(entry, trace, "there is no '%s/%s.so'; build the plugin first", entry->objects,
                   d->name);
-  if (stat(file, &info) == 0 && (info.st_mode & S_IWOTH))
-    return refuse(entry, trace, "everybody may write to '%s'; take that right away (chmod o-w)",
-                  file);
+  TRY(check_owners(entry, file, trace));
   TRY(check_object(entry, file, trace));
   TRY(load_unchanged(registry, entry, file, trace, &handle));
   snprintf(symbol, sizeof symbol, "%s_LTX_gamut_plugin", d->name);

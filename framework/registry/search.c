@@ -92,6 +92,38 @@ static const char *unsafe(const char *folder, bool in_place)
   return NULL;
 }
 
+static const char *unsafe_part(const char *path, uid_t program_owner)
+{
+  struct stat info;
+  if (lstat(path, &info) != 0)
+    return strerror(errno);
+  if (info.st_uid != 0 && info.st_uid != geteuid() && info.st_uid != program_owner)
+    return "belongs to another user";
+  /* In a sticky folder nobody can replace what is another's. */
+  if ((info.st_mode & S_IWOTH) && !(S_ISDIR(info.st_mode) && (info.st_mode & S_ISVTX)))
+    return "may be written by everybody";
+  return NULL;
+}
+
+const char *path_unsafe(const char *path, char *part, size_t size)
+{
+  char real[PATH_MAX], program[PATH_MAX];
+  uid_t owner = 0;
+  const char *why = NULL;
+  if (!program_place(program, sizeof program, &owner))
+    owner = 0;
+  snprintf(part, size, "%s", path);
+  if (!realpath(path, real))
+    return strerror(errno);
+  for (char *at = real; !why && at; ) {
+    char *end = strchr(at + 1, '/');
+    snprintf(part, size, "%.*s", end ? (int)(end - real) : (int)strlen(real), real);
+    why = unsafe_part(part, owner);
+    at = end;
+  }
+  return why;
+}
+
 struct search {
   struct registry *registry;
   struct trace *trace;
