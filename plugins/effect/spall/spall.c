@@ -6,7 +6,7 @@ struct spall_effect {
   struct gamut_run *run;
   double limit;
   double tears; /* 1; 0: tension is cut at the limit */
-  struct gamut_field stress, energy, volume_ratio, gradient, spalled;
+  struct gamut_field stress, energy, volume_ratio, gradient, viscous, spalled;
 };
 
 static gamut_status cut(void *self, const struct gamut_chunk *chunk)
@@ -17,11 +17,13 @@ static gamut_status cut(void *self, const struct gamut_chunk *chunk)
   const double *J0 = gamut_begin(chunk, e->volume_ratio, 0);
   const double *J1 = gamut_end(chunk, e->volume_ratio, 0);
   const double *torn = gamut_begin(chunk, e->spalled, 0);
+  const double *viscous = gamut_end(chunk, e->viscous, 0); /* null without viscosity */
   double *s[6], *energy = gamut_end(chunk, e->energy, 0), *now = gamut_end(chunk, e->spalled, 0);
   for (unsigned k = 0; k < 6; k++)
     s[k] = gamut_end(chunk, e->stress, k);
   for (size_t i = 0; i < chunk->count; i++) {
-    const double p = -(s[0][i] + s[1][i] + s[2][i]) * (1.0 / 3.0);
+    const double q = viscous ? viscous[i] : 0.0;
+    const double p = -(s[0][i] + s[1][i] + s[2][i]) * (1.0 / 3.0) - q;
     const bool past = p < -limit;
     now[i] = torn[i] > 0.0 || past ? tears : 0.0;
     const bool loose = now[i] > 0.0;
@@ -30,11 +32,11 @@ static gamut_status cut(void *self, const struct gamut_chunk *chunk)
     const double least = loose ? 0.0 : -limit, left = p > least ? p : least;
     double work = 0.0;
     for (unsigned k = 0; k < 6; k++) {
-      const double normal = k < 3 ? 1.0 : 0.0, deviator = s[k][i] + normal * p;
+      const double normal = k < 3 ? 1.0 : 0.0, deviator = s[k][i] + normal * (p + q);
       const double rate = gamut_end(chunk, e->gradient, mate[k][0])[i] +
                           gamut_end(chunk, e->gradient, mate[k][1])[i];
       work += (k < 3 ? 0.5 : 1.0) * deviator * rate;
-      s[k][i] = (loose ? 0.0 : deviator) - normal * left;
+      s[k][i] = (loose ? 0.0 : deviator) - normal * (left + q);
     }
     energy[i] += 0.5 * (p - left) * (J1[i] - J0[i]);
     if (loose)
@@ -48,12 +50,12 @@ static gamut_status add_task(struct gamut_run *run, struct spall_effect *effect)
   static const struct gamut_use uses[] = {
       {"stress", GAMUT_READ},  {"stress", GAMUT_WRITE},           {"energy", GAMUT_READ},
       {"energy", GAMUT_WRITE}, {"volume_ratio", GAMUT_READ_BEGIN}, {"volume_ratio", GAMUT_READ},
-      {"velocity_gradient", GAMUT_READ}, {"spalled", GAMUT_READ_BEGIN}, {"spalled", GAMUT_WRITE}};
+      {"velocity_gradient", GAMUT_READ}, {"viscous_pressure", GAMUT_READ_IF}, {"spalled", GAMUT_READ_BEGIN}, {"spalled", GAMUT_WRITE}};
   static const char *const name[] = {"stress", "energy", "volume_ratio", "velocity_gradient",
-                                     "spalled"};
+                                     "viscous_pressure", "spalled"};
   struct gamut_field *const field[] = {&effect->stress, &effect->energy, &effect->volume_ratio,
-                                       &effect->gradient, &effect->spalled};
-  for (int k = 0; k < 5; k++) {
+                                       &effect->gradient, &effect->viscous, &effect->spalled};
+  for (int k = 0; k < 6; k++) {
     const gamut_status status = gamut_field_named(run, name[k], field[k]);
     if (status != GAMUT_OK)
       return status;
