@@ -199,8 +199,13 @@ def size_of(parameter):
     return str(low) if low == high else f"{low} to {high}"
 
 
+def unit_of(entry):
+    """Its unit, or the argument that names the field whose unit it has."""
+    return f"that of `{entry['unit_of']}`" if "unit_of" in entry else entry.get("unit", "1")
+
+
 def sort_of(parameter):
-    kind, unit = parameter["type"], parameter.get("unit", "1")
+    kind, unit = parameter["type"], unit_of(parameter)
     if kind == "real":
         return unit
     if kind == "choice":
@@ -279,7 +284,7 @@ def plugin(p):
     if p["measures"]:
         print("Measures:\n")
         table(("measure", "unit", "of", "arguments", "meaning"),
-              [(f"`{k}`", m["unit"], m["at"], argument_text(m), m.get("doc", ""))
+              [(f"`{k}`", unit_of(m), m["at"], argument_text(m), m.get("doc", ""))
                for k, m in p["measures"].items()])
     if p["requires"]:
         print("Needs a solver that provides: " + ", ".join(p["requires"]) + ".\n")

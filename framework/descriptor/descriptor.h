@@ -64,6 +64,8 @@
  *     extent: {unit: m, at: body, arguments: {axis: {type: choice, choices: [x, y, z]}}, doc: ..}
  *     stress_strain: {unit: Pa, at: run, against: strain, doc: ..}   a curve over another measure
  *     of the plugin with the same `at` and no arguments, recorded at every step
+ *     `unit_of: field`, of a measure or of an argument in place of its unit, says that it has the
+ *     unit of the field that the argument `field` (type text) names in the scene.
  *     `at: point` measures are per point (a formula over components of fields such as stress_xx, or
  *     the name of a field); `at: body` and `at: run` are scalars from the plugin's measure
  *     operation.
@@ -99,6 +101,7 @@ char *range_text(const struct range *, const char *unit, char *buffer, size_t si
 struct parameter {
   const char *name, *symbol, *unit, *doc, *source;
   enum value_type type;
+  const char *unit_of; /* null, or the argument that names the field whose unit this one has */
   const struct tree *standard; /* the default as written, or null */
   bool optional, random;
   bool elsewhere; /* not for the law's kernels: a solver reads it */
@@ -134,6 +137,7 @@ struct kernel_task {
 enum measure_at { MEASURE_POINT, MEASURE_BODY, MEASURE_RUN };
 struct measure {
   const char *name, *unit, *formula, *doc; enum measure_at at;
+  const char *unit_of; /* as that of a parameter; `unit` is then that of the field in a scene */
   const struct measure *against; /* null, or the measure of the same plugin that is the axis */
   struct parameter *argument; size_t arguments;
 };

@@ -24,6 +24,7 @@ static const struct {
     {"optional", ALL},
     {"default", ALL & ~(BIT(VALUE_GROUP) | BIT(VALUE_PLUGIN))},
     {"unit", RANGED | BIT(VALUE_EXPRESSION)},
+    {"unit_of", BIT(VALUE_REAL)},
     {"fit", RANGED},
     {"usual", RANGED},
     {"physical", RANGED},
@@ -257,6 +258,19 @@ static void read_by_type(struct reader *reader, const struct tree *node,
   }
 }
 
+/* The argument that says whose unit is meant. A default or a range would need one unit of all. */
+static const char *read_unit_of(struct reader *reader, const struct tree *node, bool argument)
+{
+  static const char *const others[] = {"unit", "default", "physical", "fit", "usual"};
+  for (size_t i = 0; i < LENGTH(others) && tree_get(node, "unit_of"); i++)
+    if (tree_get(node, others[i]))
+      fault(reader, tree_get(node, others[i]), NULL,
+            "'unit_of' leaves the unit to the scene: '%s' cannot stand beside it", others[i]);
+  if (tree_get(node, "unit_of") && !argument)
+    fault(reader, tree_get(node, "unit_of"), NULL, "only an argument of a measure has 'unit_of'");
+  return read_text(reader, node, "unit_of", false);
+}
+
 static void read_parameter(struct reader *reader, const struct tree *node, bool documented,
                            struct parameter *parameter)
 {
@@ -270,11 +284,13 @@ static void read_parameter(struct reader *reader, const struct tree *node, bool 
   check_parameter_keys(reader, node, type);
   bool dimensional = (NUMBERS | BIT(VALUE_EXPRESSION)) & BIT(type);
   if (dimensional || type == VALUE_INTEGER)
-    parameter->unit = read_unit(reader, node, "unit", dimensional);
+    parameter->unit =
+        read_unit(reader, node, "unit", dimensional && !tree_get(node, "unit_of"));
   if (type == VALUE_INTEGER && parameter->unit && strcmp(parameter->unit, "1") != 0)
     fault(reader, tree_get(node, "unit"), NULL, "an integer has no unit but 1");
   if (!parameter->unit && (dimensional || type == VALUE_INTEGER))
     parameter->unit = "1";
+  parameter->unit_of = read_unit_of(reader, node, !documented);
   parameter->symbol = read_text(reader, node, "symbol", false);
   parameter->doc = read_text(reader, node, "doc", documented);
   parameter->source = read_text(reader, node, "source", false);

@@ -52,17 +52,33 @@ static bool is_measurable(const char *name, const char *const *names, size_t cou
   return false;
 }
 
+/* A unit is taken from a field that an argument of the same measure names. */
+static void check_unit_of(struct reader *reader, const struct tree *node,
+                          const struct measure *measure, const char *unit_of)
+{
+  const struct parameter *by =
+      unit_of ? parameter_named(measure->argument, measure->arguments, unit_of) : NULL;
+  if (unit_of && (!by || by->type != VALUE_TEXT))
+    fault(reader, tree_get(node, "unit_of"), "an argument of type text, which names a field",
+          "measure '%s' has no such argument '%s'", measure->name, unit_of);
+}
+
 static void read_measure(struct reader *reader, const struct tree *node, const char *const *names,
                          size_t count, struct measure *measure)
 {
-  static const char *const keys[] = {"unit", "at", "formula", "doc", "arguments", "against"};
+  static const char *const keys[] = {"unit", "at", "formula", "doc", "arguments", "against",
+                                     "unit_of"};
   static const char *const places[] = {"point", "body", "run"};
   measure->name = node->key;
   measure->unit = "1";
   check_name(reader, node, true, node->key);
   if (!check_keys(reader, node, keys, LENGTH(keys), "a measure"))
     return;
-  const char *unit = read_unit(reader, node, "unit", true);
+  measure->unit_of = read_text(reader, node, "unit_of", false);
+  const char *unit = read_unit(reader, node, "unit", !measure->unit_of);
+  if (unit && measure->unit_of)
+    fault(reader, tree_get(node, "unit"), NULL,
+          "'unit_of' leaves the unit to the scene: 'unit' cannot stand beside it");
   measure->unit = unit ? unit : "1";
   measure->doc = read_text(reader, node, "doc", true);
   measure->formula = read_text(reader, node, "formula", false);
@@ -83,6 +99,10 @@ static void read_measure(struct reader *reader, const struct tree *node, const c
               "measure '%s' at points has no formula", node->key);
   measure->arguments =
       read_parameters(reader, tree_get(node, "arguments"), false, &measure->argument);
+  check_unit_of(reader, node, measure, measure->unit_of);
+  for (size_t i = 0; i < measure->arguments; i++)
+    check_unit_of(reader, tree_get(node, "arguments")->child[i], measure,
+                  measure->argument[i].unit_of);
 }
 
 /* The measure that is a curve's axis. */

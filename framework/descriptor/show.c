@@ -65,7 +65,9 @@ static void put_type(FILE *file, const struct parameter *parameter)
   }
   if (parameter->type == VALUE_PLUGIN)
     fprintf(file, " of kind %s", kind_name(parameter->kind));
-  if (parameter->unit && parameter->type != VALUE_INTEGER) {
+  if (parameter->unit_of)
+    fprintf(file, " in the unit of '%s'", parameter->unit_of);
+  else if (parameter->unit && parameter->type != VALUE_INTEGER) {
     if (strcmp(parameter->unit, "1") == 0)
       fputs(", a pure number", file);
     else
@@ -250,7 +252,8 @@ static void put_services(FILE *file, const struct descriptor *d)
     fputs("\nmeasures\n", file);
   for (size_t i = 0; i < d->measures; i++) {
     const struct measure *m = &d->measure[i];
-    fprintf(file, "  %s in %s, per %s: %s\n", m->name, m->unit, place[m->at], m->doc);
+    fprintf(file, "  %s in %s%s%s, per %s: %s\n", m->name, m->unit_of ? "the unit of '" : "",
+            m->unit_of ? m->unit_of : m->unit, m->unit_of ? "'" : "", place[m->at], m->doc);
     if (m->formula)
       fprintf(file, "    = %s\n", m->formula);
     put_parameters(file, NULL, m->argument, m->arguments, "    ");

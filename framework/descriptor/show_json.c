@@ -55,7 +55,8 @@ static json_t *parameters(const struct parameter *parameter, size_t count)
     json_t *value = json_object();
     set_text(value, "type", value_type_name(p->type));
     set_text(value, "symbol", p->symbol);
-    set_text(value, "unit", p->unit);
+    set_text(value, "unit", p->unit_of ? NULL : p->unit);
+    set_text(value, "unit_of", p->unit_of);
     set_text(value, "doc", p->doc);
     set_text(value, "source", p->source);
     if (p->standard)
@@ -176,7 +177,8 @@ static json_t *measures(const struct descriptor *d)
   json_t *list = json_object();
   for (size_t i = 0; i < d->measures; i++) {
     json_t *value = json_object();
-    set_text(value, "unit", d->measure[i].unit);
+    set_text(value, "unit", d->measure[i].unit_of ? NULL : d->measure[i].unit);
+    set_text(value, "unit_of", d->measure[i].unit_of);
     set_text(value, "at", place[d->measure[i].at]);
     set_text(value, "formula", d->measure[i].formula);
     set_text(value, "doc", d->measure[i].doc);

@@ -142,6 +142,50 @@ static void when_read(struct reading *reading, const struct tree *node, struct q
     every_within(reading, every, "samples", quantity->every, samples_most);
 }
 
+/* The unit of the field, or of the measure of points, that an argument names. */
+static const char *unit_named(const struct reading *reading, const struct tree *node,
+                              const struct quantity *quantity, const char *argument)
+{
+  const struct scene *scene = reading->scene;
+  const struct tree *named = argument ? tree_get(node, argument) : NULL;
+  if (!named || named->kind != TREE_SCALAR)
+    return NULL;
+  const char *unit = field_unit(reading, named->text, true);
+  struct provider *list = scene_take(1 + scene->materials + scene->effects, sizeof *list);
+  size_t count = providers_of(scene, quantity->effect, list);
+  for (size_t i = 0; i < count && !unit; i++) {
+    const struct measure *measure = measure_named(list[i].descriptor, named->text);
+    unit = measure && measure->at == MEASURE_POINT ? measure->unit : NULL;
+  }
+  free(list);
+  return unit;
+}
+
+/* A measure of a field that the scene names has the field's unit, and so have its arguments. Of a
+ * field that nobody has the unit is left open; it is refused when the run is planned. */
+static void units_of_field(struct reading *reading, const struct tree *node,
+                           struct quantity *quantity)
+{
+  const struct measure *measure = quantity->measure;
+  bool any = measure->unit_of;
+  for (size_t i = 0; i < measure->arguments; i++)
+    any |= measure->argument[i].unit_of != NULL;
+  if (!any)
+    return;
+  struct measure *own = scene_keep(reading, 1, sizeof *own);
+  *own = *measure;
+  const char *unit = unit_named(reading, node, quantity, own->unit_of);
+  own->unit = unit ? unit : own->unit;
+  own->argument = scene_keep(reading, own->arguments, sizeof *own->argument);
+  for (size_t i = 0; i < own->arguments; i++) {
+    struct parameter *argument = &own->argument[i];
+    *argument = measure->argument[i];
+    unit = unit_named(reading, node, quantity, argument->unit_of);
+    argument->unit = unit ? unit : argument->unit;
+  }
+  quantity->measure = own;
+}
+
 static void quantity_read(struct reading *reading, const struct tree *node,
                           struct quantity *quantity, struct places *places)
 {
@@ -169,6 +213,7 @@ static void quantity_read(struct reading *reading, const struct tree *node,
       !effect_named(reading, tree_get(node, "effect"), &effect) ||
       !measure_find(reading, measure, effect, quantity))
     return;
+  units_of_field(reading, node, quantity);
   struct section section = {.parameter = quantity->measure->argument,
                             .count = quantity->measure->arguments,
                             .node = node,

@@ -59,6 +59,8 @@ static json_t *named(json_t *item)
 
 static json_t *number(const struct parameter *parameter)
 {
+  if (parameter->unit_of) /* a scene decides whether it is a pure number */
+    return json_pack("{s:[o, o]}", "anyOf", reference("number"), reference("quantity"));
   bool pure = unit_is_pure(parameter->unit);
   if (!parameter->random || parameter->type != VALUE_REAL)
     return reference(pure ? "number" : "quantity");

@@ -6,6 +6,8 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 GAMUT = os.environ.get("GAMUT", os.path.join(HERE, "../../build/gamut"))
 BAR = "bodies.bar."
+FRONT = "quantities.f={measure: front, body: bar, axis: y, "
+LARGEST = "quantities.f={measure: maximum, body: bar, "
 # an option, the exit code, words of the message
 STUMBLES = (
     ("solver.cell=0.8mm", 3, "a blank before the unit: '0.8 mm'"),
@@ -38,6 +40,13 @@ STUMBLES = (
     ("uncertainty.seed=9007199254740993", 0, ""),
     ("uncertainty.seed=1.5", 3, "'seed' is no whole number"),
     (BAR + "points_per_cell=18014398509481985", 3, "from -2^53 to 2^53"),
+    (FRONT + "field: pressure, level: 1 GPa}", 0, ""),
+    (FRONT + "field: total_pressure, level: 10 kbar}", 0, ""),
+    (FRONT + "field: plastic_strain, level: 0.1}", 0, ""),
+    (FRONT + "field: temperature, level: 20 degC}", 0, ""),
+    (FRONT + "field: pressure, level: 1e9}", 3, "a unit like Pa is due"),
+    (LARGEST + "field: pressure, reduce: {time_of: 1 GPa}}", 0, ""),
+    (LARGEST + "field: total_pressure, reduce: {time_of: 1e9}}", 3, "a unit like Pa is due"),
 )
 count = failures = 0
 

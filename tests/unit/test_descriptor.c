@@ -224,6 +224,7 @@ static void test_refused(void)
   refused("parametrs: {}\n", ":6:1:", "did you mean 'parameters'?");
   refused("parameters: {A: {unti: Pa, unit: Pa, doc: a}}\n", ":6:18:", "did you mean 'unit'?");
   refused("parameters:\n  A: {doc: a}\n", ":7:3:", "'unit' is missing");
+  refused("parameters: {A: {unit_of: B, doc: a}}\n", ":6:27:", "only an argument of a measure");
   refused("parameters:\n  A: {unit: Pa}\n", ":7:3:", "'doc' is missing");
   refused("parameters: {A: {unit: Paa, doc: a}}\n", ":6:24:", "'Paa' is no unit");
   refused("parameters: {A: {unit: Pa, default: 3 m, doc: a}}\n", ":6:37:", "is no quantity in Pa");

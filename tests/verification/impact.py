@@ -44,7 +44,7 @@ def strong_changes(cells, exact):
                 f"follow: {follow}}}, reduce: {{mean: [{window[0]} us, {window[1]} us]}}}}")
 
     def front(level):
-        return (f"{{measure: front, body: target, field: pressure, level: {level:.6g}, axis: x, "
+        return (f"{{measure: front, body: target, field: pressure, level: {level:.6g} Pa, axis: x, "
                 "reduce: {slope: [0.7 us, 1.6 us]}}")
 
     low, high = exact["precursor_stress"] - back, exact["plateau_stress"] - back

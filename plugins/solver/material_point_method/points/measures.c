@@ -202,7 +202,8 @@ static gamut_status over_field(struct model *m, const struct cloud *c, enum redu
       return status;
   }
   const int axis = how == FRONT ? axis_of(arguments) : 0;
-  const double level = how == FRONT ? gamut_real(arguments, "level") : 0.0;
+  const bool given = how == FRONT && gamut_given(arguments, "level");
+  const double level = given ? gamut_real(arguments, "level") : 0.0;
   for (size_t i = 0; i < c->set->slots; i++) {
     if (c->set->id[i] < 0)
       continue;
