@@ -96,6 +96,8 @@ static gamut_status make_kernel(struct bound_material *bound, int role,
     return GAMUT_OK;
   TRY(kernel_new(instance, registry, bound->arena, bound->chunk, bound->material->extra,
                  bound->material->density, trace, &bound->kernel[role]));
+  if (role != ELASTICITY)
+    TRY(kernel_try(bound->kernel[role], trace));
   TRY(links_new(bound->kernel[role], fields, trace, &bound->links[role]));
   drop_own_rows(bound->kernel[role], role, &bound->links[role]);
   collect_uses(bound, role);

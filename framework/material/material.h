@@ -21,6 +21,10 @@ struct kernel;
 gamut_status kernel_new(const struct instance *, struct registry *, struct arena *, size_t size,
                         const struct values *material_extra, double density, struct trace *,
                         struct kernel **);
+/* Calls a law (eos or strength) on a few points: it must write all its outputs and nothing else,
+ * not depend on a point's company, and its slopes must be those of its results. GAMUT_PLUGIN if
+ * not. */
+gamut_status kernel_try(const struct kernel *, struct trace *);
 void kernel_free(struct kernel *);
 const struct descriptor *kernel_descriptor(const struct kernel *);
 const struct gamut_plugin *kernel_plugin(const struct kernel *);

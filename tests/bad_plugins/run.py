@@ -1,7 +1,7 @@
-"""Bad plugins: each folder here is a plugin with one fault, and `expected` says what must come of it.
+"""Bad plugins: each folder here is a plugin with one fault, and `expected` says what must come.
 
 First line `refused`: eval, verify and run do not use it, exit code 4, and say the other lines.
-First line `caught`: it loads, but `gamut verify` finds the fault (exit code 4) and prints the lines.
+First line `caught`: it loads, but `gamut verify` finds the fault (exit code 4), prints the lines.
 Prints TAP. Everything is built with $CC in a folder of its own."""
 import os
 import shutil

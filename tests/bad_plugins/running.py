@@ -69,7 +69,8 @@ def at_once(root):
         code, said = kernels.gamut(path + ["explain", name + ".yaml"], root)
         named(f"explain, {name}", "strength/" + name, code, said)
         code, said = kernels.gamut(["verify", "./strength/" + name], root)
-        report(code == 4 and "not ok" in said and name in said, f"verify, {name}: exit {code}", said)
+        report(code == 4 and "not ok" in said and name in said,
+               f"verify, {name}: exit {code}", said)
 
 
 def effect(root, name, create, top=""):

@@ -1,5 +1,5 @@
-"""Laws that compute something wrong or do what no law may: `gamut verify` refuses each, says why, and
-passes the same law without the fault. Prints TAP."""
+"""Laws that compute something wrong or do what no law may: `gamut verify` refuses each, says why,
+and passes the same law without the fault. Prints TAP."""
 import os
 import shutil
 import sys
@@ -37,25 +37,27 @@ LAWS = {
                     CALLS + "getenv"),
     "clock": ("eos", "#include <time.h>\n", E + "    b->pressure[i] += time(0) < 0;\n", None, None,
               CALLS + "time"),
-    "chance": ("eos", "#include <stdlib.h>\n", E + "    b->pressure[i] += rand() < 0;\n", None, None,
-               CALLS + "rand"),
+    "chance": ("eos", "#include <stdlib.h>\n", E + "    b->pressure[i] += rand() < 0;\n", None,
+               None, CALLS + "rand"),
     "rounding": ("strength", "#include <fenv.h>\n", S + "    fesetround(FE_UPWARD);\n", None, None,
                  "calls that change rounding, flushing or traps: 3"),
     "flushing": ("eos", "#include <xmmintrin.h>\n", E + "    _MM_SET_FLUSH_ZERO_MODE(0x8000);\n",
                  None, None, "calls that change rounding, flushing or traps: 3"),
     "rounds_down": ("eos", "", E + "    __builtin_ia32_ldmxcsr(0x3f80);\n", None, None,
                     "calls that change rounding, flushing or traps: 3"),
-    "jump": ("strength", "", S + "    b->flow_stress[i] += b->plastic_strain[i] > 0.123 ? 5e6 : 0;\n",
+    "jump": ("strength", "",
+             S + "    b->flow_stress[i] += b->plastic_strain[i] > 0.123 ? 5e6 : 0;\n",
              None, None, "(at plastic_strain = 0.123)"),
-    "jump_of_pressure": ("eos", "", E + "    b->pressure[i] += b->compression[i] > 0.21 ? 1e6 : 0;\n",
+    "jump_of_pressure": ("eos", "",
+                         E + "    b->pressure[i] += b->compression[i] > 0.21 ? 1e6 : 0;\n",
                          None, None, "(at compression = 0.21)"),
     "clamp": ("strength", "", S + "    b->flow_stress[i] = b->plastic_strain[i] > 0.5 ? b->y0[i] : "
               "b->flow_stress[i];\n", None, None, "(at plastic_strain = 0.5)"),
     "hot": ("strength", "", S + "    b->flow_stress[i] *= 1 - b->temperature[i] / 1e4;\n"
-            "    b->flow_stress_slope_plastic_strain[i] *= 1 - b->temperature[i] / 1e4;\n", HOT, None,
-            "flow_stress that changes with temperature gives its slope"),
-    "fast": ("strength", "", S + "    b->flow_stress[i] += b->plastic_strain_rate[i];\n", FAST, None,
-             "flow_stress that changes with plastic_strain_rate gives its slope"),
+            "    b->flow_stress_slope_plastic_strain[i] *= 1 - b->temperature[i] / 1e4;\n", HOT,
+            None, "flow_stress that changes with temperature gives its slope"),
+    "fast": ("strength", "", S + "    b->flow_stress[i] += b->plastic_strain_rate[i];\n", FAST,
+             None, "flow_stress that changes with plastic_strain_rate gives its slope"),
     "warm": ("eos", "", E + "    b->pressure[i] += 0.1 * b->energy[i];\n", WARM, None,
              "pressure that changes with energy gives its slope"),
     "spare": ("strength", "", S, SPARE, None, "not ok"),
