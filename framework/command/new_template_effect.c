@@ -39,7 +39,7 @@ static const char source[] =
 static const char known[] =
     "# An effect has no known answers of its own: its kernels are checked on blocks "
     "of points. A scene\n"
-    "# @NAME@.scene.yaml in this folder would be run as well.\n"
+    "# @NAME@.scene.yaml in this folder would be run in place of the usual scene.\n"
     "tests: []\n";
 
 const struct new_file new_template_effect[] = {

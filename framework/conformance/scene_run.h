@@ -17,6 +17,11 @@ char *plugin_file(const struct descriptor *, const char *name);
 void scene_run_make(struct scene_run *, struct proof *, const char *file,
                     const struct scene_override *, size_t overrides, int threads);
 void scene_run_free(struct scene_run *);
+/* Writes the scene in which an effect without a scene of its own is tried, with the base
+ * parameters, and gives its path; null if it cannot be written. */
+char *usual_scene_new(const struct proof *);
+/* Removes the file as well. */
+void usual_scene_free(char *file);
 /* Asks for every measure that the plugin of a run declares, and for one that it does not. */
 void prove_measures(struct proof *, struct gamut_run *);
 

@@ -60,28 +60,18 @@ static void run_scene(struct proof *proof, const char *file, int threads, struct
   scene_run_free(&made);
 }
 
-void prove_scene(struct proof *proof)
+/* `label` is how people know the scene. False if it does not run to its end. */
+static bool prove_file(struct proof *proof, const char *file, const char *label)
 {
-  const struct descriptor *d = proof->descriptor;
   struct outcome outcome[3] = {{0}};
-  char name[256];
-  snprintf(name, sizeof name, "%s.scene.yaml", d->name);
-  char *file = plugin_file(d, name);
-  if (!file)
-    return;
-  if (access(file, R_OK) != 0) {
-    check_skip(&proof->checks, "no such file", "the scene %s.scene.yaml", d->name);
-    free(file);
-    return;
-  }
   for (int k = 0; k < 3; k++) {
-    check_begin(&proof->checks, "the scene %s.scene.yaml on %d threads", d->name, k + 1);
+    check_begin(&proof->checks, "the scene %s on %d threads", label, k + 1);
     run_scene(proof, file, k + 1, &outcome[k]);
     if (outcome[k].status != GAMUT_OK)
       break;
   }
   bool ended = outcome[2].ended;
-  check_that(&proof->checks, ended, "the scene %s.scene.yaml runs to its end (%llu steps)", d->name,
+  check_that(&proof->checks, ended, "the scene %s runs to its end (%llu steps)", label,
              (unsigned long long)outcome[0].steps);
   if (ended) {
     size_t different = 0;
@@ -97,6 +87,36 @@ void prove_scene(struct proof *proof)
   }
   for (int k = 0; k < 3; k++)
     free(outcome[k].value);
+  return ended;
+}
+
+/* An effect must run somewhere: where it brings no scene, in the usual one. */
+static void prove_usual_scene(struct proof *proof)
+{
+  const char *name = proof->descriptor->name;
+  char *file = usual_scene_new(proof);
+  if (!file)
+    check_that(&proof->checks, false, "the usual scene of an effect can be written");
+  else if (!prove_file(proof, file, "that effects without one are tried in"))
+    check_say(&proof->checks, "put a scene that uses effect/%s, and runs, into %s.scene.yaml", name,
+              name);
+  usual_scene_free(file);
+}
+
+void prove_scene(struct proof *proof)
+{
+  const struct descriptor *d = proof->descriptor;
+  char name[256];
+  snprintf(name, sizeof name, "%s.scene.yaml", d->name);
+  char *file = plugin_file(d, name);
+  if (!file)
+    return;
+  if (access(file, R_OK) == 0)
+    prove_file(proof, file, name);
+  else if (d->kind == GAMUT_KIND_EFFECT)
+    prove_usual_scene(proof);
+  else
+    check_skip(&proof->checks, "no such file", "the scene %s", name);
   free(file);
 }
 
