@@ -47,7 +47,8 @@ def shipped(root):
             if os.path.exists(os.path.join(place, name + ".so")):
                 shutil.copy(os.path.join(place, name + ".so"), folder)
         code, said = kernels.gamut(["verify", "./effect/" + name], root)
-        report(code == 0 and line_of(said).startswith("ok"), f"{name} without its scene: exit {code}",
+        report(code == 0 and line_of(said).startswith("ok"),
+               f"{name} without its scene: exit {code}",
                said)
 
 

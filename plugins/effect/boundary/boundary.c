@@ -64,6 +64,9 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
 {
   const char *kind = gamut_text(values, "kind");
   const bool symmetry = strcmp(kind, "symmetry") == 0, moves = strcmp(kind, "velocity") == 0;
+  const bool traction = strcmp(kind, "traction") == 0;
+  if (!symmetry && !moves && !traction && strcmp(kind, "fixed") != 0)
+    return gamut_fail(run, GAMUT_PLUGIN, "boundary does not know the kind '%s'", kind);
   struct boundary_effect *b = gamut_allocate(run, "boundary", sizeof *b);
   if (b == NULL)
     return GAMUT_INTERNAL;
@@ -76,7 +79,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
     gamut_release(run, b);
     return status;
   }
-  if (strcmp(kind, "traction") == 0) {
+  if (traction) {
     status = add_traction(run, values, b);
   } else if (moves && !gamut_given(values, "velocity")) {
     status = gamut_fail_at(run, values, "velocity", "velocity: [..]", "it is missing");

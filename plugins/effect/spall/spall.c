@@ -72,12 +72,16 @@ static gamut_status add_task(struct gamut_run *run, struct spall_effect *effect)
 
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
+  const char *mode = gamut_text(values, "mode");
+  const bool tears = strcmp(mode, "tear") == 0;
+  if (!tears && strcmp(mode, "cutoff") != 0)
+    return gamut_fail(run, GAMUT_PLUGIN, "spall does not know the mode '%s'", mode);
   struct spall_effect *effect = gamut_allocate(run, "spall", sizeof *effect);
   if (!effect)
     return GAMUT_INTERNAL;
   effect->run = run;
   effect->limit = gamut_real(values, "limit");
-  effect->tears = strcmp(gamut_text(values, "mode"), "tear") == 0 ? 1.0 : 0.0;
+  effect->tears = tears ? 1.0 : 0.0;
   const gamut_status status = add_task(run, effect);
   if (status != GAMUT_OK)
     gamut_release(run, effect);

@@ -28,22 +28,29 @@ static gamut_status read_domain(struct model *m, const struct gamut_values *valu
   return GAMUT_OK;
 }
 
-/* Which of `names` the choice at `path` is. */
-static int chosen(const struct gamut_values *values, const char *path, const char *const *names)
+/* Which of `names`, which end with a null, the choice at `path` is. */
+static gamut_status chosen(const struct model *m, const struct gamut_values *values,
+                           const char *path, const char *const *names, int *number)
 {
   const char *name = gamut_text(values, path);
-  int k = 0;
-  while (strcmp(name, names[k]) != 0)
-    k++;
-  return k;
+  for (*number = 0; names[*number]; (*number)++)
+    if (strcmp(name, names[*number]) == 0)
+      return GAMUT_OK;
+  return gamut_fail(m->run, GAMUT_PLUGIN, "material_point_method does not know the %s '%s'", path,
+                    name);
 }
 
 static gamut_status read_scheme(struct model *m, const struct gamut_values *values)
 {
-  static const char *const shapes[] = {"linear", "gimp", "quadratic", "cubic"};
-  static const char *const orders[] = {"usl", "musl", "usf", "auto"};
-  m->shape = (enum shape)chosen(values, "shape", shapes);
-  const int order = chosen(values, "order", orders);
+  static const char *const shapes[] = {"linear", "gimp", "quadratic", "cubic", NULL};
+  static const char *const orders[] = {"usl", "musl", "usf", "auto", NULL};
+  int shape, order;
+  gamut_status status = chosen(m, values, "shape", shapes, &shape);
+  if (status == GAMUT_OK)
+    status = chosen(m, values, "order", orders, &order);
+  if (status != GAMUT_OK)
+    return status;
+  m->shape = (enum shape)shape;
   m->order = order < 3 ? (enum order)order : m->shape == SHAPE_LINEAR ? ORDER_MUSL : ORDER_USL;
   m->limited = m->shape == SHAPE_LINEAR && m->order == ORDER_USL;
   m->contiguous =
@@ -56,8 +63,12 @@ static gamut_status read_scheme(struct model *m, const struct gamut_values *valu
 
 static gamut_status read_rule(struct model *m, const struct gamut_values *values)
 {
-  static const char *const rules[] = {"flip", "pic", "apic", "xpic"};
-  m->rule = (enum rule)chosen(values, "transfer.model", rules);
+  static const char *const rules[] = {"flip", "pic", "apic", "xpic", NULL};
+  int rule;
+  gamut_status status = chosen(m, values, "transfer.model", rules, &rule);
+  if (status != GAMUT_OK)
+    return status;
+  m->rule = (enum rule)rule;
   m->filter = (int)gamut_integer(values, "transfer.order");
   m->pic = m->rule == RULE_FLIP ? gamut_real(values, "transfer.pic") : 1.0;
   m->give_old = m->rule == RULE_XPIC ? 0.0 : m->pic;
@@ -76,17 +87,18 @@ static gamut_status read_rule(struct model *m, const struct gamut_values *values
 
 gamut_status model_read(struct model *m, const struct gamut_values *values)
 {
-  const char *geometry = gamut_text(values, "geometry");
-  m->geometry = strcmp(geometry, "1d") == 0             ? GEOMETRY_1D
-                : strcmp(geometry, "plane_strain") == 0 ? GEOMETRY_PLANE_STRAIN
-                : strcmp(geometry, "axisymmetric") == 0 ? GEOMETRY_AXISYMMETRIC
-                                                        : GEOMETRY_3D;
+  static const char *const geometries[] = {"1d", "plane_strain", "axisymmetric", "3d", NULL};
+  int geometry;
+  gamut_status status = chosen(m, values, "geometry", geometries, &geometry);
+  if (status != GAMUT_OK)
+    return status;
+  m->geometry = (enum geometry)geometry;
   m->dimension = m->geometry == GEOMETRY_1D ? 1 : m->geometry == GEOMETRY_3D ? 3 : 2;
   m->cell = gamut_real(values, "cell");
   m->courant = gamut_real(values, "courant");
   m->fixed_step = gamut_given(values, "step") ? gamut_real(values, "step") : 0.0;
   m->points_per_cell = 2;
-  gamut_status status = read_scheme(m, values);
+  status = read_scheme(m, values);
   if (status == GAMUT_OK)
     status = read_rule(m, values);
   if (status != GAMUT_OK)
