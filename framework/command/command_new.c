@@ -7,6 +7,7 @@
 
 #include "command/new_template.h"
 #include "command/options.h"
+#include "error/memory.h"
 
 /* What goes into the templates. */
 struct names {
@@ -49,8 +50,7 @@ static char *path_of(const char *folder, const char *name, const struct names *n
     return NULL;
   fprintf(file, "%s/", folder);
   fill_in(name, names, file);
-  fclose(file);
-  return path;
+  return memory_close(file, &path);
 }
 
 static gamut_status write_files(struct command *command, const char *folder,

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "command/options.h"
+#include "error/memory.h"
 #include "scene/scene.h"
 #include "store/file.h"
 
@@ -12,7 +13,7 @@ static gamut_status write_file(struct command *command, const char *name)
   FILE *memory = open_memstream(&text, &size);
   if (memory)
     schema_write(command->registry, memory);
-  gamut_status status = memory && fclose(memory) == 0
+  gamut_status status = memory && memory_close(memory, &text)
                             ? file_write(name, text, size, command->trace)
                             : trace_fail(command->trace, GAMUT_INTERNAL, "out of memory");
   free(text);

@@ -5,6 +5,7 @@
 #include "command/find_plugin.h"
 #include "command/options.h"
 #include "conformance/conformance.h"
+#include "error/memory.h"
 
 /* One plugin's checks as a TAP subtest: its lines indented, then one line for all of them. */
 static gamut_status verify_nested(struct command *command, const struct descriptor *descriptor,
@@ -17,7 +18,7 @@ static gamut_status verify_nested(struct command *command, const struct descript
     return trace_fail(command->trace, GAMUT_INTERNAL, "out of memory");
   gamut_status status =
       conformance_run(command->registry, descriptor, command->units, command->trace, file);
-  fclose(file);
+  memory_close(file, &text);
   printf("# Subtest: %s\n", descriptor->id);
   for (char *line = strtok(text, "\n"); line; line = strtok(NULL, "\n"))
     printf("    %s\n", line);

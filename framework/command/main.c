@@ -11,6 +11,7 @@
 #include "command/command.h"
 #include "command/help.h"
 #include "command/options.h"
+#include "error/exclusive.h"
 #include "registry/guard.h"
 
 static const struct entry {
@@ -137,6 +138,15 @@ static gamut_status flush_output(struct trace *trace)
   return GAMUT_OK;
 }
 
+/* Its cleaning at exit() crashes where it got no memory at its start; all files are closed by then.
+ */
+static void quiet_hdf5(void)
+{
+  EXCLUSIVE;
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+}
+
 int main(int argc, char **argv)
 {
   struct trace *trace = trace_new();
@@ -148,7 +158,7 @@ int main(int argc, char **argv)
   signal(SIGXFSZ, SIG_IGN); /* the write then fails, and is told as any other */
   guard_install(GUARD_CALL_SECONDS);
   gsl_set_error_handler_off();
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+  quiet_hdf5();
   gamut_status status = dispatch(argc, argv, trace);
   if (status == GAMUT_OK)
     status = flush_output(trace);

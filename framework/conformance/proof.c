@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
+
 char *trace_text(struct trace *trace)
 {
   char *text = NULL;
@@ -12,8 +14,7 @@ char *trace_text(struct trace *trace)
   if (!file)
     return NULL;
   trace_print(trace, file);
-  fclose(file);
-  return text;
+  return memory_close(file, &text);
 }
 
 /* SplitMix64. */
@@ -102,8 +103,8 @@ static void base_vector(struct settings *settings, const struct parameter *p)
   settings_put(settings, p->name, text);
 }
 
-void base_of_table(const struct descriptor *d, const struct parameter *parameter,
-                          size_t count, struct settings *settings)
+void base_of_table(const struct descriptor *d, const struct parameter *parameter, size_t count,
+                   struct settings *settings)
 {
   for (size_t i = 0; i < count; i++) {
     const struct parameter *p = &parameter[i];

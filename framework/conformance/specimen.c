@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "field/vocabulary.h"
 
 void settings_free(struct settings *settings)
@@ -158,7 +159,7 @@ static gamut_status mapping_of(const struct settings *settings, const struct par
     }
   if (entries == 0)
     fputs("{}\n", file);
-  fclose(file);
+  memory_close(file, &text);
   gamut_status status = tree_parse(text, size, source, GAMUT_SCENE, trace, tree);
   free(text);
   return status;

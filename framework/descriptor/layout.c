@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "descriptor/reader.h"
+#include "error/memory.h"
 #include "field/vocabulary.h"
 
 /* First pass: slots is null, slots and characters are counted. Second pass: both are written into
@@ -135,10 +136,8 @@ size_t descriptor_layout(const struct descriptor *descriptor, struct slot **slot
   lay_out(&layout, descriptor);
   size_t head = (layout.count + 1) * sizeof(struct slot);
   struct slot *memory = calloc(1, head + layout.length + 1);
-  if (!memory) {
-    fputs("gamut: no memory left\n", stderr);
-    abort();
-  }
+  if (!memory)
+    memory_ended();
   layout = (struct layout){.slots = memory, .text = (char *)memory + head};
   lay_out(&layout, descriptor);
   *slots = memory;

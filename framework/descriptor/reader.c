@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "expression/expression.h"
 
 void *reader_keep(struct reader *reader, size_t count, size_t size)
@@ -12,10 +13,8 @@ void *reader_keep(struct reader *reader, size_t count, size_t size)
   struct descriptor_store *store = (struct descriptor_store *)(void *)reader->descriptor;
   size_t head = (sizeof(struct keep) + 15) / 16 * 16;
   struct keep *kept = calloc(1, head + (count ? count : 1) * size);
-  if (!kept) {
-    fputs("gamut: no memory left\n", stderr);
-    abort();
-  }
+  if (!kept)
+    memory_ended();
   kept->next = store->kept;
   store->kept = kept;
   return (char *)kept + head;

@@ -28,11 +28,16 @@ struct trace {
 
 struct trace *trace_new(void)
 {
+  enum { FIRST_ROOM = 16 }; /* the end of memory can be told */
   struct trace *trace = calloc(1, sizeof *trace);
-  if (trace != NULL && pthread_mutex_init(&trace->lock, NULL) != 0) {
+  struct message *message = calloc(FIRST_ROOM, sizeof *message);
+  if (trace == NULL || message == NULL || pthread_mutex_init(&trace->lock, NULL) != 0) {
+    free(message);
     free(trace);
-    trace = NULL;
+    return NULL;
   }
+  trace->message = message;
+  trace->room = FIRST_ROOM;
   return trace;
 }
 
@@ -90,7 +95,7 @@ static void keep(struct trace *trace, gamut_status status, struct message *messa
     return;
   }
   if (trace->count == trace->room) {
-    size_t room = trace->room == 0 ? 16 : 2 * trace->room;
+    size_t room = 2 * trace->room;
     struct message *grown = realloc(trace->message, room * sizeof *grown);
     if (grown == NULL) {
       message_clear(message);

@@ -6,6 +6,7 @@
  * libraries, of which there is one set a process. */
 static pthread_mutex_t lock;
 static pthread_once_t made = PTHREAD_ONCE_INIT;
+static _Thread_local int depth;
 
 static void make(void)
 {
@@ -20,10 +21,17 @@ void exclusive_begin(void)
 {
   pthread_once(&made, make);
   pthread_mutex_lock(&lock);
+  depth++;
 }
 
 void exclusive_end(const int *here)
 {
   (void)here;
+  depth--;
   pthread_mutex_unlock(&lock);
+}
+
+bool exclusive_is_mine(void)
+{
+  return depth > 0;
 }

@@ -4,8 +4,13 @@
 #ifndef GAMUT_EXCLUSIVE_H
 #define GAMUT_EXCLUSIVE_H
 
+#include <stdbool.h>
+
 void exclusive_begin(void);
 void exclusive_end(const int *);
+
+/* Whether this thread is within such a block. */
+bool exclusive_is_mine(void);
 
 /* As the first line of a block: this thread alone until the block is left, in whatever way. May be
  * nested. No plugin is called and no team of threads is started within. */

@@ -279,6 +279,7 @@ static struct expression *make(const char *text, const char *const *names, size_
     return NULL;
   }
   find_used(expression);
+  mupEval(expression->parser); /* translates the formula: later calls ask for no memory */
   return expression;
 no_memory:
   snprintf(why, size, "no memory left for the formula");

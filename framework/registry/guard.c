@@ -9,9 +9,11 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "error/memory.h"
+
 enum {
   SEATS = 1280, /* threads that are watched at one time; crashes are named on any */
-  DEPTH = 16, /* operations of plugins that call each other through the core */
+  DEPTH = 16,   /* operations of plugins that call each other through the core */
   HANDLER_STACK = 65536,
   WATCH_STACK = 131072
 };
@@ -224,6 +226,13 @@ static void on_exit_call(void)
   _exit(GAMUT_INTERNAL);
 }
 
+static void end_without_memory(void)
+{
+  begin_line();
+  say("no memory left; results and the last checkpoint, if any, are kept as they were before\n");
+  _exit(GAMUT_INTERNAL);
+}
+
 /* How long a thread has been in what it does now. */
 struct stay {
   unsigned turn;
@@ -246,12 +255,10 @@ static void look_at(const struct seat *seat, struct stay *stay, double now, doub
     return;
   }
   if (!atomic_load(&seat->unlimited) && now - stay->since > atomic_load(&limit_seconds))
-    end_by_plugin(plugin, " hangs: ",
-                  "it takes longer over one block of points than a kernel may");
+    end_by_plugin(plugin, " hangs: ", "it takes longer over one block of points than a kernel may");
   /* The first look after a call began may come a little late. */
   if (asked_for >= GUARD_GRACE_SECONDS && now - stay->since > 0.8 * GUARD_GRACE_SECONDS)
-    end_by_plugin(plugin, " hangs: ",
-                  "the program was asked to end and waited for it");
+    end_by_plugin(plugin, " hangs: ", "the program was asked to end and waited for it");
 }
 
 static _Noreturn void end_unfinished(int number)
@@ -313,6 +320,7 @@ void guard_install(int call_seconds)
   atomic_store(&installed, true);
   for (size_t i = 0; i < CRASHES; i++)
     sigaction(crashes[i].number, &action, &before_us[i]);
+  memory_at_end(end_without_memory);
   atexit(on_exit_call);
   start_watch();
 }

@@ -26,10 +26,12 @@ void guard_push(const char *plugin);
 gamut_status guard_pop(gamut_status);
 
 /* From now on a crash, exit() or hang in a plugin ends the program with GAMUT_PLUGIN and the
- * plugin's name, a crash outside of plugins with GAMUT_INTERNAL. Call once, from main. */
+ * plugin's name, a crash outside of plugins, or the end of memory, with GAMUT_INTERNAL. Call once,
+ * from main. */
 void guard_install(int call_seconds);
 /* `stop` becomes the number of the signal that asks for the end. Where that is SIGTERM, a plugin
- * that is in one call throughout the grace is ended as one that hangs, and the program in any case. */
+ * that is in one call throughout the grace is ended as one that hangs, and the program in any case.
+ */
 void guard_obey(const volatile sig_atomic_t *stop);
 /* The program comes to its end by itself: exit() is no longer a fault. */
 void guard_finish(void);

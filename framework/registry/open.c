@@ -13,6 +13,7 @@
 #include <sys/stat.h>
 
 #include "error/exclusive.h"
+#include "error/memory.h"
 #include "registry/elf.h"
 #include "registry/guard.h"
 #include "registry/inside.h"
@@ -31,7 +32,7 @@ static gamut_status refuse(struct entry *entry, struct trace *trace, const char 
   vsnprintf(words + length, sizeof words - (size_t)length, format, list);
   va_end(list);
   free(entry->refusal);
-  entry->refusal = strdup(words);
+  entry->refusal = memory_copy(words);
   return trace_fail(trace, GAMUT_PLUGIN, "%s", words);
 }
 

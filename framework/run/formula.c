@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "field/vocabulary.h"
 #include "run/inside.h"
 
@@ -17,10 +18,11 @@ static char **variable_names(const struct fields *fields, size_t count)
         component_name(field->handle.components, (unsigned)(k - field->handle.first));
     size_t size = strlen(field->name) + strlen(component) + 2;
     name[k] = malloc(size);
-    if (name[k])
-      snprintf(name[k], size, "%s%s%s", field->name, *component ? "_" : "", component);
+    if (!name[k])
+      memory_ended();
+    snprintf(name[k], size, "%s%s%s", field->name, *component ? "_" : "", component);
     /* A scene path is no name that a formula can use. */
-    for (char *at = name[k]; at && *at; at++)
+    for (char *at = name[k]; *at; at++)
       *at = *at == '.' || *at == '-' ? '_' : *at;
   }
   return name;
@@ -121,7 +123,7 @@ gamut_status formula_new(struct gamut_run *run, const struct measure *measure,
   if (known)
     density = known->handle.first;
   else
-    name[count++] = strdup(density_name);
+    name[count++] = memory_copy(density_name);
   formula->expression = expression_new(text, (const char *const *)name, count, why, sizeof why);
   if (!formula->expression)
     status =
@@ -157,7 +159,7 @@ double formula_value(struct formula *formula, const struct gamut_run *run,
     const double *array = k == SIZE_MAX ? NULL : set->array[k];
     formula->value[formula->position[i]] = k == SIZE_MAX
                                                ? run->scene->material[set->material].density
-                                           : array ? array[slot]
+                                           : array            ? array[slot]
                                            : formula->zero[i] ? 0.0
                                                               : NAN;
   }

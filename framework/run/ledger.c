@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "run/inside.h"
 
 /* Growth of stored energy beyond what was supplied that no rounding explains. */
@@ -42,8 +43,10 @@ gamut_status ledger_open(struct gamut_run *run, const char *account, const char 
   double *cell = arena_take(run->arena, "ledger", sizeof *cell);
   if (!lines || !values || !balances || !cell)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
-  lines[run->lines] = (struct ledger_line){
-      .account = strdup(account), .name = strdup(name), .unit = strdup(unit), .role = role};
+  lines[run->lines] = (struct ledger_line){.account = memory_copy(account),
+                                           .name = memory_copy(name),
+                                           .unit = memory_copy(unit),
+                                           .role = role};
   values[run->lines] = cell;
   find_alike(run, run->lines++);
   *value = cell;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "run/restart.h"
 
 const char *restart_path(char path[RESTART_PATH], const char *group, const char *name,
@@ -27,10 +28,7 @@ char *restart_scene_text(const struct tree *tree)
   if (!memory)
     return NULL;
   tree_write(tree, memory);
-  if (fclose(memory) == 0)
-    return text;
-  free(text);
-  return NULL;
+  return memory_close(memory, &text);
 }
 
 char *restart_plugins_text(const struct gamut_run *run)
@@ -47,10 +45,7 @@ char *restart_plugins_text(const struct gamut_run *run)
     const char *level = registry_level(run->registry, d);
     fprintf(memory, "%s %s %s %s\n", d->id, d->version, d->digest, level ? level : "baseline");
   }
-  if (fclose(memory) == 0)
-    return text;
-  free(text);
-  return NULL;
+  return memory_close(memory, &text);
 }
 
 struct difference {

@@ -3,19 +3,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "scene/reading.h"
-
-static void no_memory(void)
-{
-  fputs("gamut: no memory left\n", stderr);
-  abort();
-}
 
 void *scene_take(size_t count, size_t size)
 {
   void *taken = calloc(count ? count : 1, size ? size : 1);
   if (!taken)
-    no_memory();
+    memory_ended();
   return taken;
 }
 

@@ -7,6 +7,7 @@
 
 #include <csv.h>
 
+#include "error/memory.h"
 #include "scene/reading.h"
 #include "tree/load.h"
 
@@ -83,7 +84,7 @@ static bool head_cell(struct table_file *table, const char *cell)
   struct head *grown = realloc(table->head, (table->heads + 1) * sizeof *grown);
   char *name = strdup(cell);
   if (!grown || !name)
-    abort();
+    memory_ended();
   table->head = grown;
   struct head *head = &grown[table->heads++];
   *head = (struct head){.name = name, .wanted = SIZE_MAX, .scale = 1};
@@ -177,7 +178,7 @@ static void make_room(struct table_file *table)
   double *number = realloc(table->number, table->capacity * sizeof *number);
   size_t *row = realloc(table->row, table->capacity / columns * sizeof *row);
   if (!number || !row)
-    abort();
+    memory_ended();
   table->number = number;
   table->row = row;
 }
@@ -267,7 +268,7 @@ static void parse(struct table_file *table)
   if (strncmp(table->text, "\xEF\xBB\xBF", 3) == 0) /* a byte order mark is no text */
     table->cell_at = table->row_at = table->at = 3;
   if (csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_APPEND_NULL) != 0)
-    abort();
+    memory_ended();
   feed(table, &parser);
   if (!table->failed && csv_fini(&parser, take_cell, take_row, table) != 0)
     fault(table, table->cell_at, "close them", "quotes are not closed");

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "schedule/plan.h"
 
 static void enliven(struct task *task, const char *format, ...)
@@ -16,7 +17,7 @@ static void enliven(struct task *task, const char *format, ...)
   va_end(arguments);
   task->live = true;
   free(task->why);
-  task->why = strdup(text);
+  task->why = memory_copy(text);
 }
 
 static void start_from_roots(struct schedule *schedule)
@@ -139,7 +140,7 @@ gamut_status plan_liveness(struct schedule *schedule, struct trace *trace)
     struct task *task = schedule->task[i];
     char text[256];
     if (!task->live)
-      task->why = strdup(dead_reason(task, text, sizeof text));
+      task->why = memory_copy(dead_reason(task, text, sizeof text));
     for (size_t u = 0; task->live && u < task->uses; u++)
       TRY(resolve(schedule, task, &task->use[u], trace));
   }

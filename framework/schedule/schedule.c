@@ -1,6 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "schedule/plan.h"
 
 struct schedule *schedule_new(const char *const *phase, size_t phases)
@@ -118,8 +119,8 @@ gamut_status schedule_add(struct schedule *schedule, const char *owner, const st
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
     goto done;
   }
-  added->name = strdup(task->name);
-  added->owner = strdup(owner);
+  added->name = memory_copy(task->name);
+  added->owner = memory_copy(owner);
   if (place)
     added->place = *place;
   added->extent = task->extent;
@@ -142,19 +143,13 @@ void schedule_plugin(struct schedule *schedule, const char *plugin)
   schedule->task[schedule->tasks - 1]->plugin = plugin;
 }
 
-static gamut_status add_declined(struct schedule *schedule, const char *owner, const char *why)
+void schedule_decline(struct schedule *schedule, const char *owner, const char *why)
 {
   struct declined *grown = realloc(schedule->declined, (schedule->declines + 1) * sizeof *grown);
   if (!grown)
-    return GAMUT_INTERNAL;
+    memory_ended();
   schedule->declined = grown;
-  grown[schedule->declines++] = (struct declined){strdup(owner), strdup(why)};
-  return GAMUT_OK;
-}
-
-void schedule_decline(struct schedule *schedule, const char *owner, const char *why)
-{
-  (void)add_declined(schedule, owner, why);
+  grown[schedule->declines++] = (struct declined){memory_copy(owner), memory_copy(why)};
 }
 
 void schedule_want(struct schedule *schedule, struct field *field, size_t set, const char *why,
@@ -162,9 +157,9 @@ void schedule_want(struct schedule *schedule, struct field *field, size_t set, c
 {
   struct want *grown = realloc(schedule->want, (schedule->wants + 1) * sizeof *grown);
   if (!grown)
-    return;
+    memory_ended();
   schedule->want = grown;
-  grown[schedule->wants++] = (struct want){field, set, strdup(why), zero, {0}};
+  grown[schedule->wants++] = (struct want){field, set, memory_copy(why), zero, {0}};
   if (place)
     grown[schedule->wants - 1].place = *place;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "error/exclusive.h"
+#include "error/memory.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -69,7 +70,7 @@ static char *dataset_unit(hid_t group, const char *name)
   char *unit = opened >= 0 ? hdf5_read_text_attribute(opened, "unit") : NULL;
   if (opened >= 0)
     H5Dclose(opened);
-  return unit ? unit : strdup("1");
+  return unit ? unit : memory_copy("1");
 }
 
 static bool read_deviation(hid_t group, struct result_history *history)
@@ -107,7 +108,7 @@ static bool read_history(hid_t parent, size_t index, bool member, struct result_
   history->axis = hdf5_read_text_attribute(group, "axis");
   history->family = hdf5_read_text_attribute(group, "family");
   if (!history->axis)
-    history->axis = strdup("time");
+    history->axis = memory_copy("time");
   bool sample = H5Lexists(group, "mean", H5P_DEFAULT) > 0;
   const char *value = sample ? "mean" : "value";
   history->unit = dataset_unit(group, value);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "error/exclusive.h"
+#include "error/memory.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/result_state.h"
@@ -142,7 +143,7 @@ static bool read_body(hid_t frame, const char *name, const struct choice *choice
   hid_t group = H5Gopen2(frame, name, H5P_DEFAULT);
   if (group < 0)
     return false;
-  body->name = strdup(name);
+  body->name = memory_copy(name);
   body->axes = (int)hdf5_read_real_attribute(group, "axes", 3);
   body->position = hdf5_read_reals(group, "position", &body->count, &columns);
   bool good = body->position && columns == 3 && read_value(group, choice, body);
@@ -179,7 +180,7 @@ static gamut_status find_field(hid_t frame, size_t bodies, const char *field, st
       hid_t dataset = H5Dopen2(group, choice.dataset, H5P_DEFAULT);
       made->unit = hdf5_read_text_attribute(dataset, "unit");
       made->reduced = choice.column < 0 ? reduction_of(dataset) : NULL;
-      made->field = strdup(field);
+      made->field = memory_copy(field);
       H5Dclose(dataset);
     }
     if (group >= 0)

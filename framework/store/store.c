@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "error/exclusive.h"
+#include "error/memory.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -226,8 +227,7 @@ gamut_status store_scene(struct store *store, const struct tree *tree, struct tr
   if (!memory)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   tree_write(tree, memory);
-  gamut_status status = fclose(memory) == 0 ? keep_text(store, RESULT_SCENE, "scene", text, trace)
-                                            : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  gamut_status status = keep_text(store, RESULT_SCENE, "scene", memory_close(memory, &text), trace);
   free(text);
   return status;
 }
@@ -268,10 +268,10 @@ gamut_status store_finish(struct store *store, struct trace *trace)
   hid_t file = hdf5_open(store->path);
   char *run = file >= 0 ? hdf5_read_text_attribute(file, "run") : NULL;
   if (!run || strcmp(run, store->run) != 0 || !frames_are_there(store, file))
-    status = trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL,
-                           "leave the folder alone while a run writes there; --force runs it anew",
-                           "'%s' is not what was written there: it was changed meanwhile",
-                           store->path);
+    status =
+        trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL,
+                      "leave the folder alone while a run writes there; --force runs it anew",
+                      "'%s' is not what was written there: it was changed meanwhile", store->path);
   if (file >= 0)
     H5Fclose(file);
   free(run);

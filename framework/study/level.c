@@ -1,6 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "study/inside.h"
 
 static const struct value *levels_of(const struct study *study)
@@ -194,8 +195,7 @@ char *level_label(const struct study *study, size_t level)
   }
   if (study->varies == 0)
     fputs("the scene", file);
-  fclose(file);
-  return text;
+  return memory_close(file, &text);
 }
 
 char *level_text(const struct study *study, size_t level, size_t varied)
@@ -206,6 +206,5 @@ char *level_text(const struct study *study, size_t level, size_t varied)
   if (!file)
     return NULL;
   write_flow(study->level[level].override[varied].node, file);
-  fclose(file);
-  return text;
+  return memory_close(file, &text);
 }

@@ -16,6 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "error/memory.h"
 #include "store/file.h"
 #include "study/inside.h"
 
@@ -56,16 +57,16 @@ void log_digest(struct study *study)
   char *text = NULL;
   size_t size = 0;
   FILE *file = open_memstream(&text, &size);
-  if (file) {
-    tree_write(scene->tree, file);
-    for (size_t i = 0; i < registry_count(study->registry); i++) {
-      const struct descriptor *d = registry_at(study->registry, i);
-      if (registry_is_open(study->registry, d))
-        fprintf(file, "%s %s %s\n", d->id, d->version, d->digest);
-    }
-    fclose(file);
+  if (!file)
+    memory_ended();
+  tree_write(scene->tree, file);
+  for (size_t i = 0; i < registry_count(study->registry); i++) {
+    const struct descriptor *d = registry_at(study->registry, i);
+    if (registry_is_open(study->registry, d))
+      fprintf(file, "%s %s %s\n", d->id, d->version, d->digest);
   }
-  uint64_t h = text ? hash(hash_start, text, size) : hash_start;
+  memory_close(file, &text);
+  uint64_t h = hash(hash_start, text, size);
   free(text);
   h = hash(h, &scene->seed, sizeof scene->seed);
   h = hash_values(h, scene->solver.values);
@@ -130,13 +131,15 @@ gamut_status log_axes(struct study *study)
     const struct measured *m = &study->measured[i];
     char *text = NULL;
     size_t size = 0;
-    FILE *file = m->curve ? open_memstream(&text, &size) : NULL;
-    if (!file)
+    if (!m->curve)
       continue;
+    FILE *file = open_memstream(&text, &size);
+    if (!file)
+      return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
     fprintf(file, "curve %zu %zu", i, m->count);
     for (size_t k = 0; k < m->count; k++)
       fprintf(file, " %a", m->at[k]);
-    fclose(file);
+    memory_close(file, &text);
     TRY(append(study, text, size));
   }
 done:
@@ -179,7 +182,7 @@ static gamut_status log_outcome(struct study *study, const char *head, const str
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
   fputs(head, file);
   write_outcome(study, o, file);
-  fclose(file);
+  memory_close(file, &text);
   return append(study, text, size);
 }
 

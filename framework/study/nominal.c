@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "study/inside.h"
 
 /* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends
@@ -115,7 +116,7 @@ static gamut_status march_nominal(struct study *study, struct gamut_run *run)
   if (marched == GAMUT_OK)
     TRY(values_take(study, run, nominal));
   else
-    nominal->reason = strdup(words ? words : status_text(marched));
+    nominal->reason = memory_copy(words ? words : status_text(marched));
   const struct run_cost cost = run_cost_of(run);
   nominal->steps = cost.steps;
   nominal->points = cost.points;

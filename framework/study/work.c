@@ -3,6 +3,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "error/memory.h"
 #include "study/inside.h"
 
 static double clock_now(clockid_t clock)
@@ -124,7 +125,7 @@ static void take_warning(struct study *study, const struct trace *trace)
   {
     study->warned++;
     if (!study->warning)
-      study->warning = strdup(words);
+      study->warning = memory_copy(words);
   }
 }
 
@@ -147,7 +148,7 @@ gamut_status work_run(struct study *study, struct worker *worker, struct outcome
     status = run_march(run, trace);
   if (ends_run_only(status)) {
     const char *words = trace_first(trace, MESSAGE_ERROR);
-    outcome->reason = strdup(words ? words : status_text(status));
+    outcome->reason = memory_copy(words ? words : status_text(status));
     status = outcome->reason ? GAMUT_OK : GAMUT_INTERNAL;
   } else if (status != GAMUT_OK && status != GAMUT_STOPPED) {
     const char *words = trace_first(trace, MESSAGE_ERROR);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "error/memory.h"
 #include "tree/node.h"
 
 /* Gives `base` the content of `over` and keeps its seat in the parent and its key; frees the old.
@@ -57,7 +58,7 @@ void tree_merge(struct tree *base, struct tree *over)
     if (present != NULL)
       tree_merge(present, child);
     else if (!node_attach(base, child))
-      abort(); /* a scene with a part lost in silence would be worse */
+      memory_ended(); /* a scene with a part lost in silence would be worse */
   }
   over->children = 0;
   tree_free(over);
