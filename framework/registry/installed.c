@@ -1,5 +1,5 @@
-/* Where an installed gamut is now: its tree may have been moved, or installed to another prefix than
- * configure was told. */
+/* Where an installed gamut is now: its tree may have been moved, or installed to another prefix
+ * than configure was told. */
 #include <stdio.h>
 #include <string.h>
 

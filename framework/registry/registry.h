@@ -26,9 +26,9 @@ struct registry;
  * objects beside it or in .libs there. The build tree keeps the two apart: a file `plugins.path` in
  * the folder of the running executable has lines "YAMLDIR SODIR" (one blank, both relative to that
  * folder, e.g. "../plugins plugins"), and SODIR/KIND/NAME/NAME.so belongs to
- * YAMLDIR/KIND/NAME/NAME.yaml. The installed folder is the one beside the running
- * program, which may have been moved with it, or else GAMUT_PLUGIN_FOLDER, as the build defines it. A folder with a plugins.path may also be named in --plugin-path or GAMUT_PLUGIN_PATH
- * (tests do). */
+ * YAMLDIR/KIND/NAME/NAME.yaml. The installed folder is the one beside the running program, which
+ * may have been moved with it, or else GAMUT_PLUGIN_FOLDER, as the build defines it. A folder with
+ * a plugins.path may also be named in --plugin-path or GAMUT_PLUGIN_PATH (tests do). */
 struct registry_options {
   const char *plugin_path;
   bool user_plugins;
@@ -71,9 +71,10 @@ const char *registry_level(const struct registry *, const struct descriptor *);
 /* The file that was opened, or would be; false if there is none. */
 bool registry_object(const struct registry *, const struct descriptor *, char *file, size_t size);
 bool registry_is_open(const struct registry *, const struct descriptor *);
-/* Where a folder that was to be installed at `folder` (as the build was told) stands beside a program
- * that runs in the folder `program`: "/opt/x/lib/gamut/plugins" for "/usr/lib/gamut/plugins" and
- * "/opt/x/bin". False where the program does not stand in a folder of programs. */
+/* Where a folder that was to be installed at `folder` (as the build was told) stands beside a
+ * program that runs in the folder `program`: "PREFIX/lib/gamut/plugins" for
+ * "/usr/lib/gamut/plugins" and "PREFIX/bin". False where the program does not stand in a folder of
+ * programs. */
 bool installed_beside(const char *program, const char *folder, char *path, size_t size);
 /* Prints where was looked, what was skipped and why, what is shadowed. */
 void registry_paths(const struct registry *, FILE *);

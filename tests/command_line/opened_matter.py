@@ -8,7 +8,8 @@ from tap import gamut, done, report
 PLATE = """gamut: 1
 solver: {{model: material_point_method, geometry: 1d, cell: 0.2 mm, end: 0.2 us}}
 materials:
-  cu: {{density: 8960 kg/m3, eos: {{model: mie_gruneisen, C0: 3940 m/s, S1: 1.489, gamma0: 2.02{limit}}}}}
+  cu: {{density: 8960 kg/m3, eos: {{model: mie_gruneisen, C0: 3940 m/s, S1: 1.489,
+       gamma0: 2.02{limit}}}}}
   st: {{density: 7830 kg/m3, eos: {{model: mie_gruneisen, C0: 4569 m/s, S1: 1.49, gamma0: 2.17}}}}
   al: {{density: 2785 kg/m3, eos: {{model: linear, bulk_modulus: 79 GPa}}}}
 bodies:
@@ -35,11 +36,12 @@ def main():
             with open(scene, "w", encoding="utf-8") as file:
                 file.write(PLATE.format(limit=limit, third=third, only=only))
             for command in ("check", "explain", "run"):
-                options = ["-o", os.path.join(scratch, "out"), "--force"] if command == "run" else []
+                to = ["-o", os.path.join(scratch, "out"), "--force"]
+                options = to if command == "run" else []
                 answer = gamut(command, scene, *options, cwd=scratch)
                 told = [f"{SAID} {name}" in answer.said for name in due]
                 report(answer.code == 0 and all(told) and answer.said.count(SAID) == len(due) and
-                       answer.said.count("plate.yaml:12:9: warning") == len(due),
+                       answer.said.count("plate.yaml:13:9: warning") == len(due),
                        f"{command}: {what}: {len(due)} warnings", answer)
     done()
 

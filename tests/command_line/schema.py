@@ -1,5 +1,5 @@
-"""The JSON Schema that `gamut schema` prints: no alarm on a good scene of the tree, and what a frame can
-know of the wrong ones. Prints TAP."""
+"""The JSON Schema that `gamut schema` prints: no alarm on a good scene of the tree, and what a
+frame can know of the wrong ones. Prints TAP."""
 import glob
 import json
 import os

@@ -53,7 +53,8 @@ only_listed()
   diff installed listed
 }
 
-# A stray file in the tree stays where it is: a copy of the tree's folders, so as to leave none there.
+# A stray file in the tree stays where it is: a copy of the tree's folders, so as to leave none
+# there.
 no_strays()
 {
   mkdir stray && ln -s "$srcdir"/* stray && rm stray/inputs stray/docs stray/plugins || return 1

@@ -14,7 +14,8 @@ def words(*paths):
     return found
 
 
-fragments = [p for p in tap.files("framework", "plugins", "tests", "inputs") if p.endswith("Makefile.inc")]
+fragments = [p for p in tap.files("framework", "plugins", "tests", "inputs")
+             if p.endswith("Makefile.inc")]
 listed = words("Makefile.am", *fragments)
 kinds = sorted({"/".join(p.split("/")[1:3]) for p in tap.files("plugins") if p.count("/") > 2})
 

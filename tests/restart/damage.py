@@ -1,6 +1,6 @@
-"""Results and checkpoints with a byte changed, of another run, removed or replaced while a run writes:
---resume refuses with exit 7 and what to do, or gives the same bits. How many places of each file: the
-first argument, else 4. Prints TAP."""
+"""Results and checkpoints with a byte changed, of another run, removed or replaced while a run
+writes: --resume refuses with exit 7 and what to do, or gives the same bits. How many places of each
+file: the first argument, else 4. Prints TAP."""
 import json
 import os
 import shutil
@@ -13,7 +13,8 @@ import time
 from same import GAMUT, INPUTS, content, differences, done, forget_the_end, gamut, report, run
 
 SCENE = os.path.join(INPUTS, "plate_impact.yaml")
-SHOT = ["solver.cell=0.2 mm", "solver.end=1 us", "outputs={every: 0.1 us, fields: [stress, velocity]}"]
+SHOT = ["solver.cell=0.2 mm", "solver.end=1 us",
+        "outputs={every: 0.1 us, fields: [stress, velocity]}"]
 OFTEN = "outputs.checkpoint={every: 0.55 us}"
 
 
@@ -50,8 +51,8 @@ def flipped(folder, whole, cut, name, places):
             wrong.append(f"byte {at}: exit {answer.code} {answer.said[-300:]}")
     for line in wrong[:5]:
         print("# " + line.replace("\n", "\n# "))
-    report(not wrong, f"{name}, a byte changed at {places} places: refused {refused}, the same bits "
-           f"{same}, wrong {len(wrong)} (allowed 0)")
+    report(not wrong, f"{name}, a byte changed at {places} places: refused {refused}, the same "
+           f"bits {same}, wrong {len(wrong)} (allowed 0)")
 
 
 def seen_by_plot(folder, whole):
@@ -83,7 +84,8 @@ def another(folder, whole, cut):
                answer)
         os.remove(os.path.join(out, "results.h5"))
         answer = run(SCENE, out, SHOT, "--resume")
-        report(answer.code == 7 and "missing" in answer.said, "results that are gone: exit 7", answer)
+        report(answer.code == 7 and "missing" in answer.said,
+               "results that are gone: exit 7", answer)
         answer = run(SCENE, out, SHOT, "--force")
         report(answer.code == 0 and not differences(whole, out), "and --force is the way out",
                answer)
@@ -135,7 +137,8 @@ def main(places):
         meanwhile(scratch, "results.h5 removed",
                   lambda out: os.remove(os.path.join(out, "results.h5")))
         meanwhile(scratch, "results.h5 replaced", lambda out: (
-            shutil.copy(other, out + ".h5"), os.rename(out + ".h5", os.path.join(out, "results.h5"))))
+            shutil.copy(other, out + ".h5"),
+            os.rename(out + ".h5", os.path.join(out, "results.h5"))))
         meanwhile(scratch, "the folder removed", shutil.rmtree)
         meanwhile(scratch, "the folder moved", lambda out: os.rename(out, out + "-elsewhere"))
     done()

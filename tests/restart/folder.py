@@ -1,5 +1,5 @@
-"""Whose the folder of a result is: one process at a time writes there, and nothing is written through
-links that somebody planted under the names of files to come. Prints TAP."""
+"""Whose the folder of a result is: one process at a time writes there, and nothing is written
+through links that somebody planted under the names of files to come. Prints TAP."""
 import os
 import shutil
 import signal
@@ -116,7 +116,8 @@ def pictures(folder, out, victim):
     answer = gamut("plot", out)
     same = before == {name: os.stat(os.path.join(theirs, name)).st_mtime_ns
                       for name in os.listdir(theirs)}
-    report(answer.code == 7 and "link" in answer.said and same, "pictures/ is a link: exit 7", answer)
+    report(answer.code == 7 and "link" in answer.said and same,
+           "pictures/ is a link: exit 7", answer)
     answer = run(SCENE, out, SHOT, "--force")
     report(answer.code == 0 and sorted(os.listdir(theirs)) == sorted(before),
            "--force removes no pictures behind it", answer)

@@ -1,5 +1,6 @@
 """Runs and studies that are killed (SIGKILL) at random moments and resumed, again and
-again: always the same bits in the end. How many kills: the first argument, else eight. Prints TAP."""
+again: always the same bits in the end. How many kills: the first argument, else eight. Prints
+TAP."""
 import os
 import random
 import subprocess

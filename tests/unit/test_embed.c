@@ -14,10 +14,12 @@ static const char scene[] =
     "solver: {model: material_driver, end: 1 ms, steps: 4,\n"
     "         control: {xy: {velocity_gradient: 100 1/s}}}\n"
     "materials:\n"
-    "  metal: {density: 8000 kg/m3, eos: {model: linear, bulk_modulus: 140 GPa},\n"
+    "  metal: {density: 8000 kg/m3,\n"
+                          "          eos: {model: linear, bulk_modulus: 140 GPa},\n"
     "          elasticity: {model: hypoelastic, shear_modulus: {mean: 48 GPa, cv: 0.05}}}\n"
     "bodies: {sample: {material: metal}}\n"
-    "quantities: {shear: {measure: stress_xy, body: sample, reduce: at end}}\n"
+    "quantities: {shear: {measure: stress_xy, body: sample,\n"
+                          "                     reduce: at end}}\n"
     "uncertainty: {estimator: {model: monte_carlo, runs: 8}}\n";
 
 /* A scene with an estimator is a study; the build's plugins lie beside the tests. */
@@ -66,7 +68,8 @@ static void test_nulls(void)
   expect(session, gamut_check_scene(session, NULL, NULL), GAMUT_USAGE, "no scene to check");
   expect(session, gamut_run_scene(session, "x.yaml", &no_list, &summary), GAMUT_USAGE, "no list");
   expect(session, gamut_run_scene(session, "x.yaml", &hole, &summary), GAMUT_USAGE, "a hole in it");
-  expect(session, gamut_check_scene(session, "x.yaml", &backwards), GAMUT_USAGE, "threads below none");
+  expect(session, gamut_check_scene(session, "x.yaml", &backwards), GAMUT_USAGE,
+         "threads below none");
   expect(session, gamut_run_scene(session, "no/such.yaml", NULL, NULL), GAMUT_SCENE,
          "no request and no summary are fine");
   gamut_session_free(session);
@@ -87,10 +90,12 @@ static const char bar[] = "gamut: 1\n"
                           "solver: {model: material_driver, end: 1 ms, steps: 4,\n"
                           "         control: {xy: {velocity_gradient: 100 1/s}}}\n"
                           "materials:\n"
-                          "  metal: {density: 8000 kg/m3, eos: {model: linear, bulk_modulus: 140 GPa},\n"
+                          "  metal: {density: 8000 kg/m3,\n"
+                          "          eos: {model: linear, bulk_modulus: 140 GPa},\n"
                           "          elasticity: {model: hypoelastic, shear_modulus: 48 GPa}}\n"
                           "bodies: {sample: {material: metal}}\n"
-                          "quantities: {shear: {measure: stress_xy, body: sample, reduce: at end}}\n"
+                          "quantities: {shear: {measure: stress_xy, body: sample,\n"
+                          "                     reduce: at end}}\n"
                           "outputs: {frames: 4, fields: [stress]}\n";
 
 static void *work(void *self)
@@ -153,8 +158,9 @@ static void test_threads(void)
     faults += own[i].faults;
     faults += !own[i].value || !own[0].value || strcmp(own[i].value, own[0].value) != 0;
   }
-  tap_ok(faults == 0, "%d sessions in threads, %d times a run and a study: %d faults (allowed 0), %s",
-         SESSIONS, TURNS, faults, own[0].value ? own[0].value : "no mean");
+  tap_ok(faults == 0,
+         "%d sessions in threads, %d times a run and a study: %d faults (allowed 0), %s", SESSIONS,
+         TURNS, faults, own[0].value ? own[0].value : "no mean");
   for (int i = 0; i < SESSIONS; i++)
     free(own[i].value);
   snprintf(command, sizeof command, "rm -rf %s", home);

@@ -1,5 +1,5 @@
-/* A plugin that crashes, exits or hangs is named, whatever thread it runs on. Each case is a process
- * of its own. */
+/* A plugin that crashes, exits or hangs is named, whatever thread it runs on. Each case is a
+ * process of its own. */
 #include <stdlib.h>
 #include <sys/wait.h>
 #include <time.h>

@@ -113,7 +113,8 @@ static void test_wanted(void)
   add_step(&plan);
   add(&plan, "heating", "after", GAMUT_PER_CHUNK, false,
       USES({"heat", GAMUT_READ}, {"temperature", GAMUT_WRITE}));
-  schedule_want(plan.schedule, fields_find(plan.fields, "temperature"), SIZE_MAX, "outputs", NULL, false);
+  schedule_want(plan.schedule, fields_find(plan.fields, "temperature"), SIZE_MAX, "outputs",
+                NULL, false);
   schedule_plan(plan.schedule, plan.fields, 1, plan.trace);
   const struct task *task = task_called(&plan, "heating", &index);
   tap_ok(task->live && strstr(task->why, "outputs"), "an output brings it to life: %s", task->why);

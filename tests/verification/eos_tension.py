@@ -20,8 +20,9 @@ def points(card, energy, limit):
     parameters = f"C0={C0},S1={S1},gamma0={gamma0},a={a}"
     if limit is not None:
         parameters += f",tension_limit={limit}"
-    done = subprocess.run([scenes.GAMUT, "--no-user-plugins", "eval", "eos/mie_gruneisen", "--param",
-                           parameters, "--at", f"compression=-0.999:0:300,energy={energy},"
+    done = subprocess.run([scenes.GAMUT, "--no-user-plugins", "eval", "eos/mie_gruneisen",
+                           "--param", parameters, "--at",
+                           f"compression=-0.999:0:300,energy={energy},"
                            f"reference_density={density}", "--json"], capture_output=True,
                           text=True, check=False)
     return json.loads(done.stdout)["points"]
@@ -43,7 +44,8 @@ def main():
                         square = C0 * C0 + a * energy / density
                         low, high = min(low, speed ** 2 / square), max(high, speed ** 2 / square)
         scenes.below(f"{card}: states above a limit without a real sound speed", slow, 0)
-        scenes.below(f"{card}: in tension, sound speed squared against dp/dmu over density, relative",
+        scenes.below(f"{card}: in tension, sound speed squared against dp/dmu over density, "
+                     "relative",
                      max(abs(low - 1), abs(high - 1)), 1e-12)
     unlimited = [p for p in points("lead", 2.4304e10, None) if p["status"] == "pulled_beyond"]
     scenes.report(len(unlimited) > 0, "lead, hot and open, without a limit: told to state one",

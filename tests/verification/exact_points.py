@@ -1,5 +1,5 @@
-"""A point that tears, one that is heated while it is pressed, and a wall that is touched on the axis
-alone, against closed forms (docs/theory/exact_solutions.md). Prints TAP."""
+"""A point that tears, one that is heated while it is pressed, and a wall that is touched on the
+axis alone, against closed forms (docs/theory/exact_solutions.md). Prints TAP."""
 import math
 
 import scenes  # before numpy: it skips the test where it is missing

@@ -1,5 +1,5 @@
-"""Transfers without forces against the same written as matrices, and the length of steps against its
-formula (docs/theory/exact_solutions.md). Prints TAP."""
+"""Transfers without forces against the same written as matrices, and the length of steps against
+its formula (docs/theory/exact_solutions.md). Prints TAP."""
 import math
 
 import scenes  # before numpy: it skips the test where it is missing
@@ -75,7 +75,8 @@ outputs: {{frames: 1, fields: [velocity]}}
 def steps_taken(end, courant, speed):
     """Steps of an elastic bar that flies, and at the end its step by the formula."""
     scene = scenes.written("steps", f"""gamut: 1
-solver: {{model: material_point_method, geometry: 1d, cell: 1 mm, courant: {courant}, end: {end!r} s}}
+solver: {{model: material_point_method, geometry: 1d, cell: 1 mm, courant: {courant},
+         end: {end!r} s}}
 materials:
   metal: {{density: 8000 kg/m3, eos: {{model: linear, bulk_modulus: 140 GPa}},
           elasticity: {{model: hypoelastic, shear_modulus: 48 GPa}}}}

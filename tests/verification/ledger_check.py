@@ -19,7 +19,9 @@ inputs: [mass]
 outputs: [external_force]
 """
 CODE = """#include "thief.gamut.h"
-struct accomplice { struct gamut_run *run; double *line, amount; long after; struct gamut_field force; };
+struct accomplice {
+  struct gamut_run *run; double *line, amount; long after; struct gamut_field force;
+};
 static gamut_status book(void *self, const struct gamut_chunk *chunk)
 {
   struct accomplice *t = self;
@@ -105,7 +107,8 @@ closes("a block at rest")
 closes("a block at rest, two axes", geometry="plane_strain")
 closes("gas at rest in a box", geometry="plane_strain", effects=", " + WALLS, **GAS)
 closes("gas that spreads", geometry="plane_strain", **GAS)
-closes("a bar that swings", body=', velocity: ["100 * sin(3.14159265358979 * x / 0.004 - 1.5707963)"]')
+closes("a bar that swings",
+       body=', velocity: ["100 * sin(3.14159265358979 * x / 0.004 - 1.5707963)"]')
 closes("a bar that swings, xpic", solver=", transfer: {model: xpic, order: 12}",
        body=', velocity: ["100 * sin(3.14159265358979 * x / 0.004 - 1.5707963)"]')
 closes("a block that falls", geometry="plane_strain",

@@ -1,5 +1,5 @@
-"""Scenes in which planes give momentum, and what is wrong with what they report, for every transfer,
-shape and order; for reaction_schemes.py and reaction_schemes_fine.py."""
+"""Scenes in which planes give momentum, and what is wrong with what they report, for every
+transfer, shape and order; for reaction_schemes.py and reaction_schemes_fine.py."""
 import scenes  # before numpy: it skips the test where it is missing
 import numpy
 import yaml

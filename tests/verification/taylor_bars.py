@@ -98,8 +98,8 @@ def test_two_codes(cells):
         off = max(low - value, value - high, 0.0) / high
         scenes.report(off <= allowed,
                       f"42CrMo4, {cells} cells in the radius: {name} {value / scale:.5g} {unit}, "
-                      f"two codes {low / scale:.5g} to {high / scale:.5g}: {100 * off:.2f} % outside "
-                      f"(allowed {100 * allowed:g} %)")
+                      f"two codes {low / scale:.5g} to {high / scale:.5g}: {100 * off:.2f} % "
+                      f"outside (allowed {100 * allowed:g} %)")
 
 
 def main(fine):

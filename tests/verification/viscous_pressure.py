@@ -41,7 +41,8 @@ def main():
                  max(abs(a + b - c) for a, b, c in zip(p, q, t)), SCALE)
     scenes.below("of total_pressure from -stress_xx (a fluid), Pa",
                  max(abs(a + b) for a, b in zip(t, stress)), SCALE)
-    scenes.report(max(q) > 0.2 * HUGONIOT, f"the viscous pressure is a part: {max(q) / 1e9:.0f} GPa "
+    scenes.report(max(q) > 0.2 * HUGONIOT,
+                  f"the viscous pressure is a part: {max(q) / 1e9:.0f} GPa "
                   f"at a Hugoniot of {HUGONIOT / 1e9:.0f}")
     most_p, most_t = values(viscous, "most_p"), values(viscous, "most_t")
     scenes.report(all(a <= b for a, b in zip(most_p, most_t)) and most_t[5] > most_p[5],

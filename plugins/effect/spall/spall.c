@@ -50,7 +50,8 @@ static gamut_status add_task(struct gamut_run *run, struct spall_effect *effect)
   static const struct gamut_use uses[] = {
       {"stress", GAMUT_READ},  {"stress", GAMUT_WRITE},           {"energy", GAMUT_READ},
       {"energy", GAMUT_WRITE}, {"volume_ratio", GAMUT_READ_BEGIN}, {"volume_ratio", GAMUT_READ},
-      {"velocity_gradient", GAMUT_READ}, {"viscous_pressure", GAMUT_READ_IF}, {"spalled", GAMUT_READ_BEGIN}, {"spalled", GAMUT_WRITE}};
+      {"velocity_gradient", GAMUT_READ}, {"viscous_pressure", GAMUT_READ_IF},
+      {"spalled", GAMUT_READ_BEGIN}, {"spalled", GAMUT_WRITE}};
   static const char *const name[] = {"stress", "energy", "volume_ratio", "velocity_gradient",
                                      "viscous_pressure", "spalled"};
   struct gamut_field *const field[] = {&effect->stress, &effect->energy, &effect->volume_ratio,
