@@ -1,5 +1,5 @@
-"""Runs the tests of closed forms and writes docs/results/exact_solutions.md: what each measured beside
-what is allowed.
+"""Runs the tests of closed forms and writes docs/results/exact_solutions.md: what each measured
+beside what is allowed.
 
     GAMUT=build/gamut python3 docs/results/exact_solutions.py
 """
@@ -31,7 +31,8 @@ def rows(script):
         found = re.match(r"ok \d+ - (.*?): ([^:]*?)(?: \((allowed |at least )(.*)\))?$", line)
         if found:
             name, figure, word, limit = found.groups()
-            yield name.strip(), figure, "" if limit is None else word.replace("allowed ", "") + limit
+            allowed = "" if limit is None else word.replace("allowed ", "") + limit
+            yield name.strip(), figure, allowed
 
 
 def page():

@@ -44,7 +44,8 @@ gamut_status command_explain(struct command *command)
   if (study_wanted(scene)) {
     TRY(study_new(scene, command->registry, command->units, &study_options, command->trace,
                   &study));
-    TRY(study_member(study, command->trace, &member));
+    if (study_members(study) > 0)
+      TRY(study_member(study, 0, command->trace, &member));
   }
   TRY(run_new(member ? member : scene, command->registry, &options, command->trace, &run));
   if (json) {

@@ -77,6 +77,24 @@ def sweep_is_no_sample(said, rows, out):
            "the picture has a labelled curve a level", answer)
 
 
+def unplanned_base(folder):
+    """What a plugin refuses of the scene below the levels is nothing to `check` either."""
+    linear = PLATE.replace("cell: 1 mm", "cell: 1 mm, shape: linear, transfer: {model: apic}")
+    scene = write(folder, "unplanned.yaml", linear
+                  + "uncertainty: {estimator: {model: sweep, over: {solver.shape: [gimp]}}}\n")
+    alone = gamut("check", scene, "--set", "uncertainty.estimator=off")
+    report(alone.code == 3, "check refuses a base that a plugin refuses", alone)
+    for shapes, due in (("gimp", 0), ("linear, gimp", 0), ("linear, linear", 3)):
+        over = f"uncertainty.estimator.over={{solver.shape: [{shapes}]}}"
+        run = gamut("run", scene, "-o", os.path.join(folder, "unplanned"), "--force", "--set", over,
+                    "--set", "uncertainty.failures=0.5")
+        check = gamut("check", scene, "--set", over)
+        warned = check.said.count("cannot be run") == ("linear," in shapes)
+        report(check.code == run.code == due and warned,
+               f"a sweep over {shapes}: check ends with {check.code}, run with {run.code} "
+               f"(due {due})", check)
+
+
 def sweep_without_base(folder):
     """The scene below the levels is no member: that it fails is nothing to the sweep."""
     scene = write(folder, "base.yaml", PLATE.replace("cell: 1 mm", "cell: 1 mm, step: 1 us")
@@ -91,10 +109,7 @@ def sweep_without_base(folder):
     rows = table(out)
     report(answer.code == 0 and [r["status"] for r in rows] == ["ok", "ok"]
            and [r["run"] for r in rows] == ["0", "1"], "its sweep does not", answer)
-    scene = write(folder, "unplanned.yaml", PLATE.replace("cell: 1 mm", "cell: 30 mm")
-                  + "uncertainty: {estimator: {model: sweep, over: {solver.cell: [1 mm, 2 mm]}}}\n")
-    answer = gamut("run", scene, "-o", os.path.join(folder, "unplanned"))
-    report(answer.code in (0, 3), "a base that cannot be planned", answer)
+    unplanned_base(folder)
     scene = write(folder, "first.yaml", PLATE + """uncertainty:
   failures: 0.5
   estimator: {model: sweep, over: {solver.step: [1 us, 20 ns]}}
