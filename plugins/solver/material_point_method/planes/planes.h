@@ -45,6 +45,9 @@ struct touched {
   double rest[3]; /* change of velocity that only the points' velocity gets */
   double given[3];  /* momentum that planes gave the points here in this step */
   double passed[3]; /* xpic: momentum that a pass left here, before planes */
+  /* mass and momentum given, with those of the images of this node; velocity that walls give back */
+  double all_mass, all_given[3], back[3];
+  bool image; /* of another node, by a plane that matter cannot leave */
   int8_t owner[3]; /* plane that its impulse is booked to, by component */
   int8_t first;    /* the first plane that touches it */
 };

@@ -146,53 +146,104 @@ void planes_book_pass(struct model *m, double weight)
   }
 }
 
-/* Of momentum that plane number `plane` gave at a node, the part along its normal. */
+/* Of momentum that plane number `plane` gave at a node and its images, the part along its normal. */
 static double push_of(const struct model *m, size_t plane, int32_t touched)
 {
   const struct touched *t = &m->planes.touched[touched];
   double push = 0.0;
   for (int k = 0; k < 3; k++)
     if (t->owner[k] == (int8_t)plane)
-      push += m->planes.plane[plane]->given.normal[k] * t->given[k];
+      push += m->planes.plane[plane]->given.normal[k] * t->all_given[k];
   return push;
 }
 
-/* Gives the points at these nodes back, at one velocity, what the plane took from them against its
+/* What a wall takes at a node behind a symmetry plane it takes at the node before it: both are one,
+ * and would not be if each gave back its own share. */
+static void fold_given(struct model *m, const struct plane *p)
+{
+  for (size_t c = 0; c < p->columns; c++) {
+    const int32_t *touched = p->column[c].touched;
+    if (!p->column[c].contact || touched[BEFORE] < 0 || touched[BEHIND] < 0)
+      continue;
+    struct touched *before = &m->planes.touched[touched[BEFORE]];
+    struct touched *behind = &m->planes.touched[touched[BEHIND]];
+    before->all_mass += behind->all_mass;
+    for (int k = 0; k < 3; k++)
+      before->all_given[k] += (p->odd[k] ? -1.0 : 1.0) * behind->all_given[k];
+    behind->image = true;
+  }
+}
+
+static void unfold_back(struct model *m, const struct plane *p)
+{
+  for (size_t c = 0; c < p->columns; c++) {
+    const int32_t *touched = p->column[c].touched;
+    if (!p->column[c].contact || touched[BEFORE] < 0 || touched[BEHIND] < 0)
+      continue;
+    for (int k = 0; k < 3; k++)
+      m->planes.touched[touched[BEHIND]].back[k] =
+          (p->odd[k] ? -1.0 : 1.0) * m->planes.touched[touched[BEFORE]].back[k];
+  }
+}
+
+/* The points at these nodes get back, at one velocity, what the plane took from them against its
  * normal. The transfer may ask for that where the points' velocity is not that of the nodes: what
  * it damps at a wall would be damped by a pull. */
-static void give_back(struct model *m, size_t plane, const int32_t *touched, int nodes)
+static void find_back(struct model *m, size_t plane, const int32_t *touched, int nodes)
 {
   const double *normal = m->planes.plane[plane]->given.normal;
   double push = 0.0, mass = 0.0;
   for (int n = 0; n < nodes; n++)
-    if (touched[n] >= 0) {
+    if (touched[n] >= 0 && !m->planes.touched[touched[n]].image) {
       push += push_of(m, plane, touched[n]);
-      mass += m->planes.touched[touched[n]].mass;
+      mass += m->planes.touched[touched[n]].all_mass;
     }
   if (!(push < 0.0) || !(mass > 0.0))
     return;
   for (int n = 0; n < nodes; n++)
-    for (int k = 0; k < 3 && touched[n] >= 0; k++) {
-      struct touched *t = &m->planes.touched[touched[n]];
-      const double back = -push / mass * normal[k];
-      t->given[k] += t->mass * back;
-      touched_line(m, touched[n])[LINE_CHANGE + k] += back;
+    for (int k = 0; k < 3 && touched[n] >= 0; k++)
+      m->planes.touched[touched[n]].back[k] -= push / mass * normal[k];
+}
+
+static void give_back(struct model *m)
+{
+  struct planes *ps = &m->planes;
+  for (size_t i = 0; i < ps->touches; i++) {
+    struct touched *t = &ps->touched[i];
+    t->all_mass = t->mass;
+    t->image = false;
+    memcpy(t->all_given, t->given, sizeof t->all_given);
+    memset(t->back, 0, sizeof t->back);
+  }
+  for (size_t i = 0; i < ps->count; i++)
+    if (!ps->plane[i]->given.unilateral)
+      fold_given(m, ps->plane[i]);
+  for (size_t i = 0; i < ps->count; i++) {
+    const struct plane *p = ps->plane[i];
+    for (size_t c = 0; c < p->columns && p->given.unilateral; c++)
+      find_back(m, i, p->column[c].touched, 3);
+    for (size_t n = 0; n < p->nodes && p->given.unilateral; n++)
+      find_back(m, i, &p->node[n].touched, 1);
+  }
+  for (size_t i = ps->count; i-- > 0;)
+    if (!ps->plane[i]->given.unilateral)
+      unfold_back(m, ps->plane[i]);
+  for (size_t i = 0; i < ps->touches; i++)
+    for (int k = 0; k < 3; k++) {
+      struct touched *t = &ps->touched[i];
+      t->given[k] += t->mass * t->back[k];
+      touched_line(m, (int32_t)i)[LINE_CHANGE + k] += t->back[k];
     }
 }
 
 void planes_report(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
+  give_back(m);
   memset(ps->forward, 0, sizeof ps->forward);
   memset(ps->backward, 0, sizeof ps->backward);
-  for (size_t i = 0; i < ps->count; i++) {
-    struct plane *p = ps->plane[i];
-    memset(p->impulse, 0, sizeof p->impulse);
-    for (size_t c = 0; c < p->columns && p->given.unilateral; c++)
-      give_back(m, i, p->column[c].touched, 3);
-    for (size_t n = 0; n < p->nodes && p->given.unilateral; n++)
-      give_back(m, i, &p->node[n].touched, 1);
-  }
+  for (size_t i = 0; i < ps->count; i++)
+    memset(ps->plane[i]->impulse, 0, sizeof ps->plane[i]->impulse);
   for (size_t i = 0; i < ps->touches; i++)
     for (int k = 0; k < 3; k++) {
       const struct touched *t = &ps->touched[i];
