@@ -30,6 +30,9 @@ struct bench *bench_get(void)
   snprintf(bench.folder, sizeof bench.folder, "%s/gamut-fuzz-XXXXXX",
            temporary ? temporary : P_tmpdir);
   demand(mkdtemp(bench.folder) != NULL, "no temporary folder");
+  char inputs[sizeof bench.folder + 8];
+  snprintf(inputs, sizeof inputs, "%s/inputs", bench.folder);
+  demand(symlink(GAMUT_DATA_DIR, inputs) == 0, "no link to the cards of the tree");
   struct trace *trace = trace_new();
   bench.units = units_new(why, sizeof why);
   demand(bench.units != NULL, why);

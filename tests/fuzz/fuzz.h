@@ -16,7 +16,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 struct bench {
   struct units *units;
   struct registry *registry;
-  char folder[256]; /* an empty one of this process; whoever sets TMPDIR removes it */
+  char folder[256]; /* of this process, with the tree's inputs; whoever sets TMPDIR removes it */
 };
 struct bench *bench_get(void);
 

@@ -1,6 +1,7 @@
 # run.sh SECONDS READER...: each reader from its corpus for so many seconds. What is new and
 # interesting goes to $builddir/fuzz/found/READER, an input that fails to $builddir/fuzz/faults.
-# FUZZ_RUNS (a number) bounds the inputs, FUZZ_SEED fixes their order.
+# FUZZ_RUNS (a number) bounds the inputs, FUZZ_SEED fixes their order, FUZZ_PROGRAMS is the folder
+# of the readers.
 # shellcheck disable=SC2154 # srcdir and builddir come from the harness
 set -u
 seconds=$1
@@ -48,7 +49,7 @@ gather()
 
 worst=0
 for reader in "$@"; do
-  program=$builddir/fuzz/$reader
+  program=${FUZZ_PROGRAMS:-$builddir/fuzz}/$reader
   found=$builddir/fuzz/found/$reader
   gather "$reader"
   mkdir -p "$found" "$builddir/fuzz/faults"
