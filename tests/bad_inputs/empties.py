@@ -34,7 +34,7 @@ bodies:
   bar: {material: copper, velocity: [0 m/s, -1 m/s], temperature: 300 K, points_per_cell: 4,
         shape: {difference: {from: {cylinder: {radius: 4 mm, length: 20 mm}},
                              remove: [{sphere: {radius: 1 mm, centre: [0 mm, 10 mm]}}]}}}
-  rod: {material: steel, shape: {union: [{box: {min: [0 mm, -9 mm], max: [3 mm, -5 mm]}}]}}
+  rod: {material: steel, shape: {union: [{box: {min: [6 mm, 1 mm], max: [9 mm, 5 mm]}}]}}
 effects:
   wall: {model: rigid_wall, bodies: [bar], plane: {point: [0 mm, 0 mm], normal: [0, 1]}}
   heat: {model: adiabatic_heating, materials: [steel], enabled: auto}

@@ -49,7 +49,12 @@ def test_column():
 
 def test_quarter():
     whole, part = scenes.run("taylor_bar_3d"), scenes.run("taylor_bar_quarter")
-    scenes.within("quarter: length", part.value("final_length"), whole.value("final_length"), 1e-6)
+    # Rounding grows in flight and impact: the two are the same motion, seen apart after a while.
+    early = {"solver.end": "5 us"}
+    scenes.within("quarter: length after 5 us",
+                  scenes.run("taylor_bar_quarter", early).value("final_length"),
+                  scenes.run("taylor_bar_3d", early).value("final_length"), 1e-8)
+    scenes.within("quarter: length", part.value("final_length"), whole.value("final_length"), 1e-5)
     scenes.within("quarter: force on the wall, four times its largest",
                   4 * max(part.history("wall_force")[1]), max(whole.history("wall_force")[1]), 0.02)
 

@@ -55,24 +55,20 @@ GAMUT_INLINE double cold(const struct hugoniot *h, double mu, double D, double D
   return mu * N / square;
 }
 
-/* Writes what follows from the law's pressure and slope. Between zero pressure and a stated limit
- * the part p G / (1 + mu)^2 is left out: as matter opens it takes any sound speed away, while the
- * limit says that the law holds there. What is left is the slope that the cut-off has. */
+/* Writes what follows from the law's pressure and slope. */
 GAMUT_INLINE void finish(const struct mie_gruneisen *b, size_t i, double pressure, double slope)
 {
   double mu = b->compression[i], ratio = 1.0 + mu;
   double gamma = b->gamma0[i] + b->a[i] * mu, limit = b->tension_limit[i];
-  bool cut = pressure < limit, limited = limit > unlimited;
+  bool cut = pressure < limit;
   double p = cut ? limit : pressure;
-  bool held = limited && p < 0.0;
-  double square = slope + (cut || held ? 0.0 : p * gamma / (ratio * ratio));
+  double square = slope + (cut ? 0.0 : p * gamma / (ratio * ratio));
   b->pressure[i] = p;
   b->pressure_slope_compression[i] = cut ? 0.0 : slope;
   b->pressure_slope_energy[i] = cut ? 0.0 : gamma;
   b->sound_speed[i] = sqrt((square <= 0.0 ? 0.0 : square) / b->reference_density[i]);
   GAMUT_FLAG(b, i, cut, MIE_GRUNEISEN_AT_TENSION_LIMIT);
   GAMUT_FLAG(b, i, square <= 0.0, MIE_GRUNEISEN_NO_SOUND_SPEED);
-  GAMUT_FLAG(b, i, square <= 0.0 && p < 0.0 && !limited, MIE_GRUNEISEN_PULLED_BEYOND);
   GAMUT_FLAG(b, i, p != p, MIE_GRUNEISEN_NOT_FINITE);
   GAMUT_FLAG(b, i, ratio <= 0.0, MIE_GRUNEISEN_VACUUM);
 }
@@ -131,11 +127,35 @@ static void extrapolate_marked(const struct mie_gruneisen *b)
       extrapolate(b, i);
 }
 
+/* Between zero pressure and a stated limit the part p G / (1 + mu)^2 of the sound speed is left out:
+ * as matter opens it takes any sound speed away, while the limit says that the law holds there. What
+ * is left is the slope that the cut-off has. */
+static void settle_tension(const struct mie_gruneisen *b, size_t i)
+{
+  const double slope = b->pressure_slope_compression[i], limit = b->tension_limit[i];
+  const bool lost = b->status[i] == MIE_GRUNEISEN_NO_SOUND_SPEED;
+  if (lost && limit <= unlimited)
+    b->status[i] = MIE_GRUNEISEN_PULLED_BEYOND;
+  if (limit <= unlimited || !(b->pressure[i] > limit) || !(slope > 0.0))
+    return;
+  b->sound_speed[i] = sqrt(slope / b->reference_density[i]);
+  if (lost)
+    b->status[i] = 0;
+}
+
+static void settle_pulled(const struct mie_gruneisen *b)
+{
+  for (size_t i = 0; i < b->count; i++)
+    if (b->pressure[i] < 0.0)
+      settle_tension(b, i);
+}
+
 static void pressure(const struct mie_gruneisen *b)
 {
   GAMUT_EACH (i, b)
     regular(b, i, true);
   extrapolate_marked(b);
+  settle_pulled(b);
 }
 
 /* With S2 = S3 = 0. */
@@ -144,6 +164,7 @@ static void straight(const struct mie_gruneisen *b)
   GAMUT_EACH (i, b)
     regular(b, i, false);
   extrapolate_marked(b);
+  settle_pulled(b);
 }
 
 /* f = K mu N / D^2 and its derivatives by S1 (the others follow by w2/w1, w3/w1), gamma0 and a. */
