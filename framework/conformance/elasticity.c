@@ -126,7 +126,8 @@ static void prove_order(struct path *path)
     path_follow(path, (size_t)(200 << k), false, matrix_unity, 0);
     path_stress(path, stress[k]);
   }
-  double coarse = matrix_distance(stress[1], stress[0]), fine = matrix_distance(stress[2], stress[1]);
+  double coarse = matrix_distance(stress[1], stress[0]);
+  double fine = matrix_distance(stress[2], stress[1]);
   if (fine < 1e-10)
     check_figure(checks, fine, 1e-10, "halving the step changes nothing, stress relative");
   else

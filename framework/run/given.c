@@ -13,7 +13,11 @@ void given_mark(struct gamut_run *run)
     bool own = strchr(field->name, '.') != NULL;
     for (size_t i = 0; i < solver->outputs; i++)
       own = own || strcmp(solver->output[i].name, field->name) == 0;
+    bool state = false;
+    for (size_t i = 0; i < solver->states; i++)
+      state = state || strcmp(solver->state[i].name, field->name) == 0;
     field->given = own                                       ? GIVEN_BY_SOLVER
+                   : state                                   ? GIVEN_AT_START
                    : strcmp(field->name, "temperature") == 0 ? GIVEN_BY_BODY
                                                              : GIVEN_BY_NOBODY;
   }

@@ -107,6 +107,17 @@ static gamut_status resolve(const struct schedule *schedule, struct task *task, 
   return GAMUT_OK;
 }
 
+/* A state that was given at the start is there where a live task reads it. */
+static bool is_read(const struct schedule *schedule, const struct field *field)
+{
+  for (size_t i = 0; i < schedule->tasks; i++)
+    for (size_t u = 0; schedule->task[i]->live && u < schedule->task[i]->uses; u++)
+      if (schedule->task[i]->use[u].field == field &&
+          access_reads(schedule->task[i]->use[u].access))
+        return true;
+  return false;
+}
+
 /* What somebody outside wants and no task writes would be zeros. */
 static gamut_status check_want(const struct schedule *schedule, const struct want *want,
                                struct trace *trace)
@@ -114,7 +125,9 @@ static gamut_status check_want(const struct schedule *schedule, const struct wan
   const struct field *field = want->field;
   if (field->where != GAMUT_AT_POINT || want->zero || written(schedule, field, want->set))
     return GAMUT_OK;
-  if (field->given == GIVEN_BY_NOBODY)
+  if (field->given == GIVEN_AT_START && is_read(schedule, field))
+    return GAMUT_OK;
+  if (field->given == GIVEN_BY_NOBODY || field->given == GIVEN_AT_START)
     return trace_fail_at(
         trace, GAMUT_SCENE, known(&want->place), NULL, "add what writes it, or leave it out",
         "%s asks for '%s' (%s), which nothing in this scene writes%s", want->why, field->name,

@@ -9,6 +9,7 @@ if ! $CC -fsanitize=thread "$work/x.c" -o "$work/x" 2> /dev/null || ! "$work/x";
   echo "ok 1 - sessions in threads # SKIP the compiler has no thread sanitizer"
   exit 0
 fi
+# shellcheck disable=SC2154 # from the harness
 source=$(cd "$srcdir" && pwd)
 mkdir "$work/build" && cd "$work/build" || exit 1
 { "$source/configure" --disable-levels --enable-thread-sanitizer CC="$CC" &&

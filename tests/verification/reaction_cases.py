@@ -1,8 +1,10 @@
 """Scenes in which planes give momentum, and what is wrong with what they report, for every
 transfer, shape and order; for reaction_schemes.py and reaction_schemes_fine.py."""
 import scenes  # before numpy: it skips the test where it is missing
-import numpy
-import yaml
+
+scenes.needs.modules("yaml")
+import numpy  # noqa: E402
+import yaml  # noqa: E402
 
 METAL = {"density": "8000 kg/m3", "eos": {"model": "linear", "bulk_modulus": "140 GPa"},
          "strength": {"model": "von_mises", "yield_stress": "90 MPa",

@@ -127,9 +127,9 @@ static void extrapolate_marked(const struct mie_gruneisen *b)
       extrapolate(b, i);
 }
 
-/* Between zero pressure and a stated limit the part p G / (1 + mu)^2 of the sound speed is left out:
- * as matter opens it takes any sound speed away, while the limit says that the law holds there. What
- * is left is the slope that the cut-off has. */
+/* Between zero pressure and a stated limit the part p G / (1 + mu)^2 of the sound speed is left
+ * out: as matter opens it takes any sound speed away, while the limit says that the law holds
+ * there. What is left is the slope that the cut-off has. */
 static void settle_tension(const struct mie_gruneisen *b, size_t i)
 {
   const double slope = b->pressure_slope_compression[i], limit = b->tension_limit[i];

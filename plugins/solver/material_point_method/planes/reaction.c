@@ -146,7 +146,7 @@ void planes_book_pass(struct model *m, double weight)
   }
 }
 
-/* Of momentum that plane number `plane` gave at a node and its images, the part along its normal. */
+/* Of momentum that plane number `plane` gave at a node and its images, what is along its normal. */
 static double push_of(const struct model *m, size_t plane, int32_t touched)
 {
   const struct touched *t = &m->planes.touched[touched];
