@@ -21,7 +21,7 @@ NAMES = ("evaluations of the strength", "evaluations of the eos", "slots", "line
          "lines of boxes", "sorts", "bytes a point at the peak")
 COUNTS = ("strength_points", "eos_points", "slots", "node_lines", "box_lines")
 # 168,112 points: what is fixed counts for little. The target is 250.
-LARGE = {"linear": 203, "quadratic": 234}
+LARGE = {"linear": 211, "quadratic": 242}  # 8 of them: frames of pressure keep the viscous one
 
 
 def counted(shape, threads):
