@@ -135,14 +135,6 @@ static void prove_order(struct path *path)
                 "order of convergence when the step is halved (last change %.1e)", fine);
 }
 
-static bool provides(const struct descriptor *d, const char *name)
-{
-  for (size_t i = 0; i < d->provisions; i++)
-    if (strcmp(d->provide[i], name) == 0)
-      return true;
-  return false;
-}
-
 static double mean_stress(const struct path *path)
 {
   return (*path_value(path, path->stress) + *path_value(path, path->stress + 1) +
@@ -155,7 +147,7 @@ static void prove_imposed(struct path *path)
 {
   const struct proof *proof = path->suite->proof;
   double worst = 0, scale = 0, due[6];
-  if (!provides(proof->descriptor, "imposed_stress"))
+  if (!descriptor_provides(proof->descriptor, "imposed_stress"))
     return;
   check_begin(&path->suite->proof->checks, "imposed stress");
   path_follow(path, 64, false, matrix_unity, 0);

@@ -186,6 +186,8 @@ const char *kind_operation(enum gamut_kind, size_t index);
 const struct parameter *parameter_named(const struct parameter *, size_t count, const char *name);
 /* Index of a parameter of the descriptor, or -1. */
 int descriptor_parameter(const struct descriptor *, const char *name);
+/* Whether `provides` lists it. */
+bool descriptor_provides(const struct descriptor *, const char *name);
 
 /* The block that a kernel of this plugin sees. */
 

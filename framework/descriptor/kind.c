@@ -73,3 +73,11 @@ int descriptor_parameter(const struct descriptor *descriptor, const char *name)
       parameter_named(descriptor->parameter, descriptor->parameters, name);
   return found ? (int)(found - descriptor->parameter) : -1;
 }
+
+bool descriptor_provides(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->provisions; i++)
+    if (strcmp(d->provide[i], name) == 0)
+      return true;
+  return false;
+}

@@ -14,14 +14,6 @@ static bool imposes_stress(const struct task *task, const char *owner)
   return task->live && writes && strcmp(task->owner, owner) == 0;
 }
 
-static bool provides(const struct descriptor *d, const char *name)
-{
-  for (size_t i = 0; i < d->provisions; i++)
-    if (strcmp(d->provide[i], name) == 0)
-      return true;
-  return false;
-}
-
 /* A stress that is set behind the back of an elasticity which works it out anew from other states
  * would act on the motion for one step and leave the strain energy as it was: energy from nowhere.
  */
@@ -32,7 +24,8 @@ static gamut_status check_imposed(const struct gamut_run *run, const struct runn
   for (size_t b = 0; b < run->scene->bodies; b++) {
     const struct material *material = &run->scene->material[run->scene->body[b].material];
     const struct descriptor *elasticity = material->elasticity.descriptor;
-    if (effect->effect->on_body[b] && elasticity && !provides(elasticity, "imposed_stress"))
+    if (effect->effect->on_body[b] && elasticity &&
+        !descriptor_provides(elasticity, "imposed_stress"))
       return trace_fail_at(
           run->trace, GAMUT_SCENE, asked->node ? &asked->node->place : NULL,
           asked->node ? tree_path(asked->node, path, sizeof path) : NULL,
@@ -126,7 +119,7 @@ gamut_status effects_check(struct gamut_run *run)
       if (imposes_stress(task, effect->label))
         TRY(check_imposed(run, effect));
     }
-    if (live && provides(effect->effect->instance.descriptor, "opened_matter"))
+    if (live && descriptor_provides(effect->effect->instance.descriptor, "opened_matter"))
       TRY(check_opened(run, effect, told));
   }
 done:

@@ -69,11 +69,11 @@ static void targets_read(struct reading *reading, const struct tree *root, const
 static bool provided(const struct scene *scene, const char *name)
 {
   const struct descriptor *solver = scene->solver.descriptor;
-  bool found = solver && has_name(solver->provide, solver->provisions, name);
+  bool found = solver && descriptor_provides(solver, name);
   for (size_t i = 0; i < scene->effects && !found; i++) {
     const struct descriptor *effect = scene->effect[i].instance.descriptor;
     found = effect && scene->effect[i].enabled != EFFECT_OFF &&
-            has_name(effect->provide, effect->provisions, name);
+            descriptor_provides(effect, name);
   }
   return found;
 }
