@@ -41,18 +41,21 @@ struct touched {
   int32_t block; /* of nodes */
   int32_t index; /* in the block */
   double x[3];
-  double mass, momentum[3];
+  double mass;
+  union {
+    double momentum[3];
+    double all_mass; /* when planes report: with that of the images of this node */
+  };
   union {
     double force[3];
     double passed[3];    /* then; xpic: momentum that a pass left here, before planes */
-    double all_given[3]; /* then: momentum given, with that of the images of this node */
+    double all_given[3]; /* when planes report: momentum given, with the images */
   };
   union {
     double rest[3]; /* change of velocity that only the points' velocity gets */
     double back[3]; /* then: velocity that walls give back */
   };
   double given[3]; /* momentum that planes gave the points here in this step */
-  double all_mass; /* with that of the images */
   int8_t owner[3]; /* plane that its impulse is booked to, by component */
   int8_t first;    /* the first plane that touches it */
   bool image;      /* of another node, by a plane that matter cannot leave */
