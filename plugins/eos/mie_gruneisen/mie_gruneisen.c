@@ -1,7 +1,7 @@
 #include "mie_gruneisen.gamut.h"
 
-static const double guard = 0.05; /* the least D at which the Hugoniot is used */
-static const double close = 0.1;  /* D below this is noted */
+static const double guard = 0.05;       /* the least D at which the Hugoniot is used */
+static const double close = 0.1;        /* D below this is noted */
 static const double unlimited = -1e300; /* Pa, the tension_limit where none is stated */
 
 /* Coefficients at a point. S2 = S3 = 0 and known to be so where `curved` is false, a constant at
@@ -55,14 +55,19 @@ GAMUT_INLINE double cold(const struct hugoniot *h, double mu, double D, double D
   return mu * N / square;
 }
 
-/* Writes what follows from the law's pressure and slope. */
+/* Writes what follows from the law's pressure and slope. Between zero pressure and a stated limit
+ * the part p G / (1 + mu)^2 of the sound speed is left out: as matter opens it takes any sound
+ * speed away, while the limit says that the law holds there. What is left is the slope that the
+ * cut-off has. */
 GAMUT_INLINE void finish(const struct mie_gruneisen *b, size_t i, double pressure, double slope)
 {
   double mu = b->compression[i], ratio = 1.0 + mu;
   double gamma = b->gamma0[i] + b->a[i] * mu, limit = b->tension_limit[i];
   bool cut = pressure < limit;
   double p = cut ? limit : pressure;
-  double square = slope + (cut ? 0.0 : p * gamma / (ratio * ratio));
+  bool stated = limit > unlimited;
+  double part = p * gamma / (ratio * ratio), opened = stated ? 0.0 : part;
+  double square = slope + (p < 0.0 ? opened : part);
   b->pressure[i] = p;
   b->pressure_slope_compression[i] = cut ? 0.0 : slope;
   b->pressure_slope_energy[i] = cut ? 0.0 : gamma;
@@ -120,42 +125,26 @@ static void extrapolate(const struct mie_gruneisen *b, size_t i)
   GAMUT_FLAG(b, i, stop, MIE_GRUNEISEN_BEYOND_POLE);
 }
 
-static void extrapolate_marked(const struct mie_gruneisen *b)
+/* The rare points: beyond the guard, or pulled until no sound speed is left while nothing limits
+ * the tension. */
+static void settle_rare(const struct mie_gruneisen *b)
 {
-  for (size_t i = 0; i < b->count; i++)
+  for (size_t i = 0; i < b->count; i++) {
+    if (b->sound_speed[i] > 0.0)
+      continue;
     if (b->sound_speed[i] < 0.0)
       extrapolate(b, i);
-}
-
-/* Between zero pressure and a stated limit the part p G / (1 + mu)^2 of the sound speed is left
- * out: as matter opens it takes any sound speed away, while the limit says that the law holds
- * there. What is left is the slope that the cut-off has. */
-static void settle_tension(const struct mie_gruneisen *b, size_t i)
-{
-  const double slope = b->pressure_slope_compression[i], limit = b->tension_limit[i];
-  const bool lost = b->status[i] == MIE_GRUNEISEN_NO_SOUND_SPEED;
-  if (lost && limit <= unlimited)
-    b->status[i] = MIE_GRUNEISEN_PULLED_BEYOND;
-  if (limit <= unlimited || !(b->pressure[i] > limit) || !(slope > 0.0))
-    return;
-  b->sound_speed[i] = sqrt(slope / b->reference_density[i]);
-  if (lost)
-    b->status[i] = 0;
-}
-
-static void settle_pulled(const struct mie_gruneisen *b)
-{
-  for (size_t i = 0; i < b->count; i++)
-    if (b->pressure[i] < 0.0)
-      settle_tension(b, i);
+    if (b->status[i] == MIE_GRUNEISEN_NO_SOUND_SPEED && b->pressure[i] < 0.0 &&
+        b->tension_limit[i] <= unlimited)
+      b->status[i] = MIE_GRUNEISEN_PULLED_BEYOND;
+  }
 }
 
 static void pressure(const struct mie_gruneisen *b)
 {
   GAMUT_EACH (i, b)
     regular(b, i, true);
-  extrapolate_marked(b);
-  settle_pulled(b);
+  settle_rare(b);
 }
 
 /* With S2 = S3 = 0. */
@@ -163,8 +152,7 @@ static void straight(const struct mie_gruneisen *b)
 {
   GAMUT_EACH (i, b)
     regular(b, i, false);
-  extrapolate_marked(b);
-  settle_pulled(b);
+  settle_rare(b);
 }
 
 /* f = K mu N / D^2 and its derivatives by S1 (the others follow by w2/w1, w3/w1), gamma0 and a. */
