@@ -77,12 +77,16 @@ $(foreach plugin,$(gamut_plugins),$(eval $(call plugin_rules,$(plugin))))
 # --- What the Makefile calls ---------------------------------------------------------------------
 build-plugins: $(shared_objects)
 
+# The digest is that of the installed file, which may be stripped; registry/digest.c checks it.
 install-plugins: $(shared_objects)
 	@for plugin in $(gamut_plugins); do \
 	  name=$${plugin##*/}; folder="$(DESTDIR)$(plugindir)/$$plugin"; \
 	  echo "installing plugin $$plugin"; $(MKDIR_P) "$$folder" || exit 1; \
 	  for suffix in '' $(suffixes); do \
-	    $(INSTALL_PROGRAM) "plugins/$$plugin/$$name$$suffix.so" "$$folder" || exit 1; \
+	    object=$$name$$suffix.so; rm -f "$$folder/$$object.sha256" && \
+	      $(INSTALL_PROGRAM) "plugins/$$plugin/$$object" "$$folder" && \
+	      (cd "$$folder" && sha256sum "$$object" >"$$object.sha256" && \
+	      chmod 644 "$$object.sha256") || exit 1; \
 	  done; \
 	  for file in $$name.yaml $$name.test.yaml $$name.scene.yaml; do \
 	    test ! -f "$(srcdir)/plugins/$$plugin/$$file" || \

@@ -63,7 +63,7 @@ static const char *check_parts(const struct elf_file *elf)
   return NULL;
 }
 
-bool elf_read(struct elf_file *elf, const char *path)
+bool elf_load(struct elf_file *elf, const char *path)
 {
   *elf = (struct elf_file){.why = "it cannot be read"};
   FILE *file = fopen(path, "rbe");
@@ -82,10 +82,23 @@ bool elf_read(struct elf_file *elf, const char *path)
   if (file)
     fclose(file);
   if (elf->bytes && elf->size == (size_t)size)
-    elf->why = check_parts(elf);
+    elf->why = NULL;
+  else
+    elf_free(elf);
+  return elf->why == NULL;
+}
+
+bool elf_check(struct elf_file *elf)
+{
+  elf->why = check_parts(elf);
   if (elf->why)
     elf_free(elf);
   return elf->why == NULL;
+}
+
+bool elf_read(struct elf_file *elf, const char *path)
+{
+  return elf_load(elf, path) && elf_check(elf);
 }
 
 void elf_free(struct elf_file *elf)

@@ -13,8 +13,12 @@ struct elf_file {
   const char *why;
 };
 
-/* Reads the file and checks that everything its headers name lies within it. A truncated file would
- * end the program with SIGBUS once it is opened. */
+/* Reads the file as it is. */
+bool elf_load(struct elf_file *, const char *path);
+/* Whether everything that its headers name lies within it; frees it where not. A truncated file
+ * would end the program with SIGBUS once it is opened. */
+bool elf_check(struct elf_file *);
+/* Both. */
 bool elf_read(struct elf_file *, const char *path);
 void elf_free(struct elf_file *);
 /* Calls `each` with the name of every function or variable that others must give. */

@@ -46,6 +46,10 @@ bool is_file(const char *path);
  * itself, that belongs to a stranger or that everybody may write; null where there is none. */
 const char *path_unsafe(const char *path, char *part, size_t size);
 
+/* Whether the bytes of a shared object are those of which the digest beside it was made; true where
+ * none was installed with it. Otherwise `why` is a sentence. */
+bool digest_holds(const char *file, const void *bytes, size_t size, char *why, size_t why_size);
+
 /* Fills registry->root from the options and the environment. */
 gamut_status search_roots(struct registry *, const struct registry_options *, struct trace *);
 /* Reads the plugins of one root. */

@@ -292,7 +292,12 @@ static gamut_status check_object(struct entry *entry, const char *file, struct t
 {
   struct elf_file elf;
   const char *ending = NULL;
-  if (!elf_read(&elf, file))
+  char why[3 * PATH_MAX];
+  if (elf_load(&elf, file) && !digest_holds(file, elf.bytes, elf.size, why, sizeof why)) {
+    elf_free(&elf);
+    return refuse(entry, trace, "%s", why);
+  }
+  if (elf.why || !elf_check(&elf))
     return refuse(entry, trace, "its shared object cannot be loaded: '%s': %s", file, elf.why);
   elf_imports(&elf, take_ending, &ending);
   elf_free(&elf);

@@ -7,6 +7,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import kernels  # noqa: E402
+from tap import finish, report  # noqa: E402
 
 ROOT = kernels.ROOT
 YAML = """plugin: effect/{name}
@@ -15,21 +16,6 @@ summary: an effect for a test
 source: [by hand]
 {more}"""
 SHIPPED = ("gravity", "adiabatic_heating", "spall", "artificial_viscosity")
-count = 0
-failures = 0
-
-
-def report(passed, name, *notes):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for note in notes if not passed else ():
-        for line in str(note).splitlines():
-            print("#   " + line)
-    sys.stdout.flush()
-
-
 def line_of(said):
     lines = [line for line in said.splitlines() if "are tried in runs to its end" in line]
     return lines[0] if lines else ""
@@ -90,8 +76,7 @@ def main():
     with tempfile.TemporaryDirectory() as root:
         shipped(root)
         written(root)
-    print(f"1..{count}")
-    return failures > 0
+    return finish()
 
 
 if __name__ == "__main__":

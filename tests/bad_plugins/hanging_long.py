@@ -7,6 +7,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import kernels  # noqa: E402
+from tap import finish, report  # noqa: E402
 
 
 def main():
@@ -19,15 +20,12 @@ def main():
         begun = time.monotonic()
         code, said = kernels.gamut(["--plugin-path", root, "run", "waits.yaml", "-o", "r"], root)
         took = time.monotonic() - begun
-        good = code == 4 and "plugin strength/waits hangs" in said
-        print(("ok" if good else "not ok") + f" 1 - exit {code} and the plugin's name")
-        print(("ok" if 59 < took < 63 else "not ok") + f" 2 - after {took:.1f} s (59 to 63)")
-        kept = os.path.exists(os.path.join(root, "r", "checkpoint.h5"))
-        print(("ok" if kept else "not ok") + " 3 - the last checkpoint is kept")
-        for line in said.splitlines():
-            print("# " + line)
-        print("1..3")
-        return not (good and 59 < took < 63 and kept)
+        report(code == 4 and "plugin strength/waits hangs" in said,
+               f"exit {code} (due 4) and the plugin's name", said)
+        report(59 < took < 63, f"after {took:.1f} s (59 to 63)", said)
+        report(os.path.exists(os.path.join(root, "r", "checkpoint.h5")),
+               "the last checkpoint is kept", said)
+    return finish()
 
 
 if __name__ == "__main__":

@@ -8,21 +8,9 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import kernels  # noqa: E402
+from tap import finish, report  # noqa: E402
 
 STRANGER, USER = 1, 65534
-count = 0
-failures = 0
-
-
-def report(passed, name, said):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for line in said.splitlines() if not passed else ():
-        print("#   " + line)
-
-
 def judge(root, what, due, words="", prefix=()):
     command = [*prefix, kernels.GAMUT, "--no-user-plugins", "--plugin-path",
                os.path.join(root, "p"), "eval", "strength/mine", "--param", "y0=90e6", "--param",
@@ -100,8 +88,7 @@ def main():
         cut(root)
         owned(root)
         as_user(root)
-    print(f"1..{count}")
-    return failures > 0
+    return finish()
 
 
 if __name__ == "__main__":

@@ -10,11 +10,10 @@ import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-ROOT = os.path.join(HERE, "../..")
-GAMUT = os.environ.get("GAMUT", os.path.join(ROOT, "build/gamut"))
-CC = os.environ.get("CC", "cc").split()
-FLAGS = ["-std=gnu11", "-O1", "-fPIC", "-shared", "-fopenmp-simd", "-ffp-contract=off",
-         "-I" + os.path.join(ROOT, "framework/include")]
+sys.path.insert(0, HERE)
+import kernels  # noqa: E402
+from tap import finish, report  # noqa: E402
+
 SCENE = """gamut: 1
 solver: {{model: material_driver, end: 1 s, steps: 10, control: {{xx: {{log_strain: 0.01}}}}}}
 materials:
@@ -23,30 +22,12 @@ materials:
 bodies:
   sample: {{material: metal}}
 """
-count = 0
-failures = 0
-
-
-def report(passed, name, *notes):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for note in notes if not passed else ():
-        for line in str(note).splitlines():
-            print("#   " + line)
-    sys.stdout.flush()
 
 
 def call(command, folder):
     return subprocess.run(command, cwd=folder, timeout=300, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           errors="replace")
-
-
-def gamut(arguments, folder):
-    done = call([GAMUT, "--no-user-plugins"] + arguments, folder)
-    return done.returncode, done.stdout
 
 
 def build(name, folder):
@@ -60,7 +41,7 @@ def build(name, folder):
     declared = os.path.join("before", name + ".yaml")
     if not os.path.exists(os.path.join(folder, declared)):
         declared = name + ".yaml"
-    header = subprocess.run([GAMUT, "header", declared], cwd=folder, text=True,
+    header = subprocess.run([kernels.GAMUT, "header", declared], cwd=folder, text=True,
                             capture_output=True)
     if header.returncode != 0:
         return header.stderr
@@ -69,11 +50,12 @@ def build(name, folder):
     libraries = []
     if os.path.exists(os.path.join(folder, "library.c")):
         gone = "libhardening_of_a_library.so"
-        done = call(CC + FLAGS + ["-o", gone, "library.c"], folder)
+        done = call(kernels.CC + kernels.FLAGS + ["-o", gone, "library.c"], folder)
         if done.returncode != 0:
             return done.stdout
         libraries = ["-L.", "-lhardening_of_a_library"]
-    done = call(CC + FLAGS + ["-o", name + ".so", name + ".c"] + libraries + ["-lm"], folder)
+    done = call(kernels.CC + kernels.FLAGS + ["-o", name + ".so", name + ".c", *libraries, "-lm"],
+                folder)
     if libraries:
         os.remove(os.path.join(folder, gone))
     return done.stdout if done.returncode != 0 else None
@@ -86,20 +68,20 @@ def judge(what, code, said, lines):
 
 
 def refused(name, folder, lines, scratch):
-    code, said = gamut(["eval", "./" + name], os.path.dirname(folder))
+    code, said = kernels.gamut(["eval", "./" + name], os.path.dirname(folder))
     judge(f"{name}: eval refuses it with the reason", code, said, lines)
-    code, said = gamut(["verify", folder], scratch)
+    code, said = kernels.gamut(["verify", folder], scratch)
     judge(f"{name}: verify says the reason", code, said, lines)
     scene = os.path.join(scratch, "scene.yaml")
     with open(scene, "w", encoding="utf-8") as file:
         file.write(SCENE.format(name=name))
-    code, said = gamut(["--plugin-path", scratch, "run", scene, "-o", "result"], scratch)
+    code, said = kernels.gamut(["--plugin-path", scratch, "run", scene, "-o", "result"], scratch)
     judge(f"{name}: run refuses it with the reason", code, said, lines)
     report(not os.path.exists(os.path.join(scratch, "result")), f"{name}: nothing is written")
 
 
 def caught(name, folder, lines, scratch):
-    code, said = gamut(["verify", folder], scratch)
+    code, said = kernels.gamut(["verify", folder], scratch)
     judge(f"{name}: verify catches it", code, said, lines)
     plan = [line for line in said.splitlines() if line.startswith("1..")]
     results = [line for line in said.splitlines() if line.startswith(("ok ", "not ok "))]
@@ -126,8 +108,7 @@ def main():
     for name in sorted(os.listdir(HERE)):
         if os.path.exists(os.path.join(HERE, name, "expected")):
             try_one(name)
-    print(f"1..{count}")
-    return failures > 0
+    return finish()
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import kernels  # noqa: E402
+from tap import finish, report  # noqa: E402
 
 LATE = "b->plastic_strain[i] > 0.01"
 HANG = "#include <unistd.h>\n"
@@ -28,21 +29,6 @@ version: "1.0"
 summary: an effect for a test
 source: [by hand]
 """
-count = 0
-failures = 0
-
-
-def report(passed, name, *notes):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for note in notes if not passed else ():
-        for line in str(note).splitlines():
-            print("#   " + line)
-    sys.stdout.flush()
-
-
 def named(what, plugin, code, said):
     report(code == 4 and f"plugin {plugin} " in said, f"{what}: exit {code}, {plugin} named", said)
 
@@ -138,8 +124,7 @@ def main():
         at_once(root)
         other_places(root)
         hanging(root)
-    print(f"1..{count}")
-    return failures > 0
+    return finish()
 
 
 if __name__ == "__main__":

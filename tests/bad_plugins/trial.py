@@ -6,6 +6,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import kernels  # noqa: E402
+from tap import finish, report  # noqa: E402
 
 S, E = kernels.STRENGTH, kernels.EOS
 HOT = kernels.STRENGTH_YAML.replace("[plastic_strain]", "[plastic_strain, temperature]").replace(
@@ -52,21 +53,6 @@ LAWS = {
              "      b->flow_stress[i] = b->y0[i] + b->h[i] * 0.0131;\n"
              "      b->flow_stress_slope_plastic_strain[i] = 0;\n    }\n", None, None),
 }
-count = 0
-failures = 0
-
-
-def report(passed, name, *notes):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for note in notes if not passed else ():
-        for line in str(note).splitlines():
-            print("#   " + line)
-    sys.stdout.flush()
-
-
 def try_law(root, name, kind, body, yaml, due):
     if kind == "strength":
         kernels.strength(root, name, body, yaml=yaml or kernels.STRENGTH_YAML)
@@ -90,8 +76,7 @@ def main():
     with tempfile.TemporaryDirectory() as root:
         for name, (kind, body, yaml, due) in LAWS.items():
             try_law(root, name, kind, body, yaml, due)
-    print(f"1..{count}")
-    return failures > 0
+    return finish()
 
 
 if __name__ == "__main__":

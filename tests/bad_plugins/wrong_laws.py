@@ -7,6 +7,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import kernels  # noqa: E402
+from tap import finish, report  # noqa: E402
 
 S, E = kernels.STRENGTH, kernels.EOS
 HOT = kernels.STRENGTH_YAML.replace("[plastic_strain]", "[plastic_strain, temperature]")
@@ -78,21 +79,6 @@ NOTED = {
     "good": ("strength", S, kernels.STRENGTH_YAML, "1.."),
     "good_eos": ("eos", E, kernels.EOS_YAML, "1.."),
 }
-count = 0
-failures = 0
-
-
-def report(passed, name, *notes):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for note in notes if not passed else ():
-        for line in str(note).splitlines():
-            print("#   " + line)
-    sys.stdout.flush()
-
-
 def make(root, kind, name, body, top="", yaml=None, test=None):
     law = kernels.strength if kind == "strength" else kernels.eos
     standard = {"strength": (kernels.STRENGTH_YAML, kernels.STRENGTH_TEST),
@@ -118,8 +104,7 @@ def main():
         prepared = os.path.join(os.path.dirname(os.path.abspath(__file__)), "double_work")
         if os.path.isdir(prepared):
             energy(root, prepared)
-    print(f"1..{count}")
-    return failures > 0
+    return finish()
 
 
 def energy(root, prepared):

@@ -9,6 +9,8 @@ unset GAMUT_PLUGIN_PATH MAKEFLAGS MAKELEVEL MFLAGS
 : "${GAMUT:?}" "${includedir:?}" "${pkgdatadir:?}"
 # A staged install (DESTDIR) does not lie where its .pc file says: point pkg-config at it.
 export PKG_CONFIG_SYSROOT_DIR=${DESTDIR:-}
+# shellcheck source=digests.sh
+. "${0%/*}/digests.sh"
 
 # try NAME COMMAND...
 try()
@@ -65,6 +67,7 @@ try 'every installed plugin is found' lists_every_plugin
 try 'no .la files beside the plugins' no_libtool_files
 try '<gamut/plugin.h> compiles' header_compiles
 try 'an installed scene is sound' "$GAMUT" check "$pkgdatadir/inputs/taylor_bar.yaml"
+try_digests
 for kind in eos strength elasticity effect random_field estimator solver; do
   try "a new $kind plugin builds and passes" new_plugin "$kind"
 done

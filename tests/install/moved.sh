@@ -9,6 +9,8 @@ trap 'rm -rf "$scratch"' EXIT
 unset GAMUT_PLUGIN_PATH MAKEFLAGS MAKELEVEL MFLAGS DESTDIR
 export XDG_DATA_HOME=$scratch/none
 cd "$scratch" || exit 1
+# shellcheck source=digests.sh
+. "$srcdir/tests/install/digests.sh"
 
 # try NAME COMMAND...
 try()
@@ -77,5 +79,16 @@ try 'cards are found after the move' finds_cards "$scratch/second"
 ln -s "$scratch/second/bin/gamut" "$scratch/gamut"
 
 try 'and through a link' "$scratch/gamut" check elsewhere/scene.yaml
+
+# The plugins stay at the place that configure was told; what is here is uninstalled there.
+# shellcheck disable=SC2034 # of digests.sh
+plugindir=$(echo "$scratch"/second/lib*/gamut/plugins)
+GAMUT=$scratch/second/bin/gamut
+try_digests
+uninstalls()
+{
+  make -C "$builddir" uninstall prefix="$scratch/second" && ! find second -type f | grep .
+}
+try 'make uninstall leaves no file' uninstalls
 echo "1..$number"
 exit "$((failures > 0))"
