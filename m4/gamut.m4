@@ -87,3 +87,21 @@ int LLVMFuzzerTestOneInput(const unsigned char *data, __SIZE_TYPE__ size)
   FUZZ_CC=$gamut_cv_fuzz_cc
   AM_CONDITIONAL([LIBFUZZER], [test -n "$FUZZ_CC"])
 ])
+
+# Folders as gamut.pc names them: by way of its own place, so that a tree that was moved, or staged,
+# is found where it stands. What lies outside of the prefix, or has a prefix of its own, is named as
+# configure was told.
+AC_DEFUN([GAMUT_PKG_CONFIG_FOLDERS], [
+  gamut_prefix=$prefix gamut_exec_prefix=$exec_prefix
+  AS_IF([test "x$prefix" = xNONE], [gamut_prefix=$ac_default_prefix])
+  AS_IF([test "x$exec_prefix" = xNONE], [gamut_exec_prefix='${prefix}'])
+  m4_foreach_w([gamut_name], [bindir libdir includedir], [
+    pc_[]gamut_name=`AS_ECHO(["$gamut_name"]) | sed -e 's|^${exec_prefix}/|'"$gamut_exec_prefix/|" \
+      -e "s|^$gamut_prefix/|"'${prefix}/|'`
+    AC_SUBST(pc_[]gamut_name)])
+  AS_CASE([$pc_libdir],
+    ['${prefix}'/*], [pc_prefix='${pcfiledir}'/`AS_ECHO(["$pc_libdir/pkgconfig"]) |
+      sed -e 's|^[[^/]]*/||' -e 's|[[^/]][[^/]]*|..|g'`],
+    [pc_prefix=$gamut_prefix])
+  AC_SUBST([pc_prefix])
+])

@@ -44,8 +44,7 @@ gamut_status command_explain(struct command *command)
   if (study_wanted(scene)) {
     TRY(study_new(scene, command->registry, command->units, &study_options, command->trace,
                   &study));
-    if (study_members(study) > 0)
-      TRY(study_member(study, 0, command->trace, &member));
+    TRY(study_member(study, &member));
   }
   TRY(run_new(member ? member : scene, command->registry, &options, command->trace, &run));
   if (json) {

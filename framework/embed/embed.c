@@ -102,7 +102,8 @@ static gamut_status check_arguments(const struct gamut_session *session, const c
   return GAMUT_OK;
 }
 
-/* Reads a scene, and the study that it asks for, which is null for a run of its own. */
+/* Reads a scene, and makes the study that it asks for, which is null for a run of its own. `study`
+ * null: it is not made. */
 static gamut_status read_scene(struct gamut_session *session, const char *file,
                                const struct gamut_run_request *request, struct scene **scene,
                                struct study **study)
@@ -114,7 +115,7 @@ static gamut_status read_scene(struct gamut_session *session, const char *file,
   TRY(overrides_read(request->set, request->sets, session->trace, &list));
   TRY(scene_read(file, list.override, list.count, session->registry, session->units, session->trace,
                  scene));
-  if (study_wanted(*scene))
+  if (study && study_wanted(*scene))
     TRY(study_new(*scene, session->registry, session->units, &options, session->trace, study));
 done:
   overrides_free(&list);
@@ -125,14 +126,14 @@ gamut_status gamut_check_scene(struct gamut_session *session, const char *file,
                                const struct gamut_run_request *request)
 {
   struct scene *scene = NULL;
-  struct study *study = NULL;
   if (!session)
     return GAMUT_USAGE;
   request = request ? request : &nothing_asked;
   gamut_status status = begin(session);
   if (status == GAMUT_OK)
-    status = read_scene(session, file, request, &scene, &study);
-  study_free(study);
+    status = read_scene(session, file, request, &scene, NULL);
+  if (status == GAMUT_OK)
+    status = study_check(scene, session->registry, session->units, session->trace);
   scene_free(scene);
   return end(session, status);
 }

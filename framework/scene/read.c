@@ -53,6 +53,22 @@ static void sections_read(struct reading *reading, struct scene *scene)
   scene->random = reading->random;
 }
 
+static gamut_status make(const char *, const struct scene *, const struct scene_override *, size_t,
+                         struct reading, struct scene **);
+
+/* The scene below the levels of a sweep is no member: where it cannot be read, the first level
+ * stands for it. */
+static void stand_in(const struct reading *reading, const char *file, struct scene *scene)
+{
+  struct scene *alone = NULL;
+  const struct reading unheard = {
+      .units = reading->units, .registry = reading->registry, .trace = trace_new()};
+  if (make(file, scene, NULL, 0, unheard, &alone) != GAMUT_OK)
+    first_level_put(reading, scene->tree);
+  scene_free(alone);
+  trace_free(unheard.trace);
+}
+
 /* The file, or the tree of `base` where it is given, with the overrides. */
 static gamut_status make(const char *file, const struct scene *base,
                          const struct scene_override *override, size_t overrides,
@@ -71,6 +87,8 @@ static gamut_status make(const char *file, const struct scene *base,
     reading.faults++;
     reading.first = trace_fail(reading.trace, GAMUT_INTERNAL, "out of memory");
   }
+  if (!base && reading.faults == 0 && levels_of_members(&reading, store->shown.tree))
+    stand_in(&reading, name, &store->shown);
   if (store->shown.tree && reading.faults == 0) /* without an include much would seem missing */
     sections_read(&reading, &store->shown);
   if (reading.faults == 0)

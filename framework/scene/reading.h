@@ -148,6 +148,10 @@ void table_file_blame(struct table_file *, size_t row, const char *expected, con
 size_t table_file_line(const struct table_file *, size_t row);
 void table_file_free(struct table_file *); /* accepts null */
 bool levels_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
+/* Whether the scene asks for a study whose runs stand for themselves: then what the first level
+ * sets may be put in, where the scene below the levels, which is no member, cannot be read. */
+bool levels_of_members(const struct reading *, const struct tree *root);
+void first_level_put(const struct reading *, struct tree *root);
 bool plugin_read(struct reading *, enum gamut_kind, const struct tree *, struct value *);
 bool random_read(struct reading *, const struct parameter *, const struct tree *, struct value *);
 /* Physical range: a fault; range of the fit: a warning. `node` null: a derived value. */

@@ -8,19 +8,6 @@
 
 enum { RUNS_COUNTED = 1 << 20 };
 
-size_t study_members(const struct study *study)
-{
-  const size_t levels = study->levels ? study->levels : 1;
-  return study->table ? levels : 0;
-}
-
-gamut_status study_member(struct study *study, size_t level, struct trace *trace,
-                          struct scene **scene)
-{
-  *scene = NULL;
-  return level_scene(study, level, trace, scene);
-}
-
 /* Told nothing but failures, an estimator asks for what it would at least. */
 static gamut_status count_runs(struct study *study, struct study_forecast *f)
 {

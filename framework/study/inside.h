@@ -104,6 +104,7 @@ struct study {
   size_t finished, failed, repeated; /* repeated: taken from the log */
   size_t warned;                     /* runs with warnings */
   char *warning;                     /* the first one's words */
+  bool noted;                        /* a note of a level has been told */
   struct outcome *logged;            /* by number; done where the log has it */
   size_t logs;
   struct store *store; /* of the folder; null: nothing is written */
@@ -141,6 +142,13 @@ size_t curve_overlap(const struct study *, const struct measured *, size_t *kept
 
 /* nominal.c: plans what is measured, opens plugins and folder, makes the run at the means. */
 gamut_status nominal_prepare(struct study *, const char *folder);
+/* Where runs stand for themselves: what is measured, by the first level that can be planned. */
+gamut_status plan_first_level(struct study *);
+
+/* study.c: how many runs a study has whose runs stand for themselves. */
+size_t levels_of_table(const struct study *);
+/* More than uncertainty.failures allows; of a table, more than it allows of all its levels. */
+bool too_many_fail(const struct study *);
 
 /* work.c */
 void worker_clear(struct worker *);

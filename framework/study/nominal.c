@@ -39,38 +39,63 @@ static struct run_options options_of(const struct study *study)
       .threads = study->threads, .stop = study->options.stop, .seed = study->scene->seed};
 }
 
-static gamut_status plan_level(struct study *study, size_t level, struct trace *trace)
+static gamut_status plan_level(struct study *study, size_t level, struct trace *trace,
+                               struct scene **scene, struct gamut_run **run)
 {
   gamut_status status;
-  struct worker worker = {0};
-  struct gamut_run *run = NULL;
   const struct run_options options = options_of(study);
-  TRY(worker_take(study, &worker, level, trace));
-  TRY(run_new(worker.scene, study->registry, &options, trace, &run));
-  status = values_plan(study, run);
+  TRY(level_scene(study, level, trace, scene));
+  status = run_new(*scene, study->registry, &options, trace, run);
 done:
-  run_free(run);
-  worker_clear(&worker);
+  if (status != GAMUT_OK) {
+    run_free(*run);
+    scene_free(*scene);
+    *run = NULL;
+    *scene = NULL;
+  }
   return status;
 }
 
 /* Levels that cannot be planned fail later, as runs of their own. */
-static gamut_status plan_first_level(struct study *study)
+static gamut_status first_level(struct study *study, struct scene **scene, struct gamut_run **run)
 {
   gamut_status status = GAMUT_OK;
-  const size_t levels = study->levels ? study->levels : 1;
+  const size_t levels = levels_of_table(study);
+  size_t last = 0;
+  *scene = NULL;
+  *run = NULL;
   for (size_t i = 0; i < levels; i++) {
     struct trace *unheard = trace_new();
-    status = plan_level(study, i, unheard);
-    const char *words = trace_first(unheard, MESSAGE_ERROR);
-    const bool over = status == GAMUT_OK || !ends_run_only(status) || i + 1 == levels;
-    if (over && status != GAMUT_OK)
-      trace_fail(study->trace, status, "%s%s", i ? "no level can be run; the last: " : "",
-                 words ? words : status_text(status));
+    status = plan_level(study, last = i, unheard, scene, run);
     trace_free(unheard);
-    if (over)
+    if (status == GAMUT_OK || !ends_run_only(status))
       break;
   }
+  if (status == GAMUT_OK)
+    return status;
+  if (last > 0 && ends_run_only(status))
+    trace_note(study->trace, "no level can be run; the error is that of the last, level %zu", last);
+  return plan_level(study, last, study->trace, scene, run); /* with its place */
+}
+
+gamut_status plan_first_level(struct study *study)
+{
+  struct scene *scene;
+  struct gamut_run *run;
+  gamut_status status = first_level(study, &scene, &run);
+  if (status == GAMUT_OK)
+    status = values_plan(study, run);
+  run_free(run);
+  scene_free(scene);
+  return status;
+}
+
+gamut_status study_member(struct study *study, struct scene **scene)
+{
+  struct gamut_run *run = NULL;
+  *scene = NULL;
+  gamut_status status = study->table ? first_level(study, scene, &run) : GAMUT_OK;
+  run_free(run);
   return status;
 }
 

@@ -235,11 +235,22 @@ static gamut_status tell(struct study *study, size_t first)
   return GUARDED(estimator_of(study), study->ops->tell(study->self, &study->batch));
 }
 
+size_t levels_of_table(const struct study *study)
+{
+  return study->levels ? study->levels : 1;
+}
+
+bool too_many_fail(const struct study *study)
+{
+  const size_t levels = study->table ? levels_of_table(study) : 0;
+  const size_t runs = levels > study->runs ? levels : study->runs;
+  return (double)study->failed > study->scene->failures * (double)runs || study->failed >= runs;
+}
+
 static gamut_status judge_failures(struct study *study)
 {
   const char *reason = NULL;
-  if ((double)study->failed <= study->scene->failures * (double)study->runs &&
-      study->failed < study->runs)
+  if (!too_many_fail(study))
     return GAMUT_OK;
   for (size_t i = 0; i < study->runs && !reason; i++)
     reason = study->outcome[i].reason;

@@ -55,11 +55,12 @@ void study_free(struct study *); /* accepts null */
 /* Runs to the estimator's end; folder null: nothing is written. GAMUT_NUMERICS if too many runs
  * failed, GAMUT_STOPPED if told to stop (study.log is then complete: --resume goes on). */
 gamut_status study_run(struct study *, const char *folder, struct trace *);
-/* Where runs stand for themselves, the scene below the levels is no member of the study: how many
- * levels there are. Else 0: the scene itself is what is planned. */
-size_t study_members(const struct study *);
-/* The scene of a level, to be freed. */
-gamut_status study_member(struct study *, size_t level, struct trace *, struct scene **);
+/* What is known of a scene, and of the study that it asks for, before the first step: what a run
+ * would begin with, with the status that it would have. */
+gamut_status study_check(struct scene *, struct registry *, const struct units *, struct trace *);
+/* Where runs stand for themselves, the scene below the levels is no member of the study: the first
+ * level that can be planned, to be freed. Else null: the scene itself is what is planned. */
+gamut_status study_member(struct study *, struct scene **);
 /* How many runs the estimator asks for where it is told nothing, and what they cost in all. Needs
  * a run of the study's, planned, and its forecast. */
 struct study_forecast {

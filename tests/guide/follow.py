@@ -34,12 +34,9 @@ def environment():
                  PATH=os.path.dirname(GAMUT) + os.pathsep + os.environ["PATH"])
     for name in ("MAKEFLAGS", "MAKELEVEL", "MFLAGS", "GAMUT_PLUGIN_PATH", "CFLAGS"):
         shell.pop(name, None)
-    if not os.environ.get("DESTDIR"):
-        shell.pop("GAMUT")  # pkg-config says where it is, but not where it was staged
+    shell.pop("GAMUT")  # pkg-config says where it is
     shell.setdefault("PYTHON", sys.executable)
-    if INSTALLED:
-        shell["PKG_CONFIG_SYSROOT_DIR"] = os.environ.get("DESTDIR", "")
-    else:
+    if not INSTALLED:
         write_uninstalled(shell)
     return shell
 

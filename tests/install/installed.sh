@@ -6,9 +6,8 @@ failures=0
 scratch=$(mktemp -d) || exit 1
 trap 'rm -rf "$scratch"' EXIT
 unset GAMUT_PLUGIN_PATH MAKEFLAGS MAKELEVEL MFLAGS
-: "${GAMUT:?}" "${includedir:?}" "${pkgdatadir:?}"
-# A staged install (DESTDIR) does not lie where its .pc file says: point pkg-config at it.
-export PKG_CONFIG_SYSROOT_DIR=${DESTDIR:-}
+: "${GAMUT:?}" "${prefix:?}" "${libdir:?}" "${includedir:?}" "${pkgdatadir:?}"
+unset PKG_CONFIG_SYSROOT_DIR
 # shellcheck source=digests.sh
 . "${0%/*}/digests.sh"
 
@@ -60,7 +59,51 @@ new_plugin()
 
 no_libtool_files() { ! find "$plugindir" -name '*.la' | grep .; }
 
-plugindir=${DESTDIR:-}$(pkg-config --define-variable=pc_sysrootdir= --variable=plugindir gamut)
+# As a user who moves the tree, or unpacks it elsewhere: a copy, since this one stays.
+moved=$scratch/moved
+moves()
+{
+  local part
+  for part in bin/gamut "${libdir#"$prefix"/}"/libgamut.* "${libdir#"$prefix"/}/gamut" \
+    "${libdir#"$prefix"/}/pkgconfig/gamut.pc" "${includedir#"$prefix"/}/gamut" \
+    "${pkgdatadir#"$prefix"/}"; do
+    mkdir -p "$moved/${part%/*}" && cp -a "$prefix"/$part "$moved/${part%/*}" || return 1
+  done
+}
+
+# Each folder that pkg-config tells lies in the moved tree.
+moved_folders()
+{
+  local name told
+  for name in prefix bindir libdir includedir plugindir gamut; do
+    told=$(realpath -e "$(pkg-config --variable=$name gamut)") || return 1
+    case $told/ in "$(realpath "$moved")"/*) ;; *) echo "$name is $told"; return 1 ;; esac
+  done
+}
+
+# A stranger's program builds against the library there, and checks a scene with its plugins.
+embeds()
+{
+  cat >"$scratch/embeds.c" <<'END'
+#include <gamut/gamut.h>
+#include <stdio.h>
+int main(int count, char **argument)
+{
+  struct gamut_session *session = gamut_session_new(argument[1]);
+  gamut_status status = gamut_check_scene(session, argument[count - 1], NULL);
+  fputs(gamut_messages(session), stderr);
+  gamut_session_free(session);
+  return (int)status;
+}
+END
+  # shellcheck disable=SC2046,SC2086 # lists of flags
+  ${CC:-cc} -o "$scratch/embeds" "$scratch/embeds.c" $(pkg-config --cflags --libs gamut) &&
+    LD_LIBRARY_PATH=$(pkg-config --variable=libdir gamut) "$scratch/embeds" \
+      "$(realpath "$(pkg-config --variable=plugindir gamut)")" \
+      "$moved/${pkgdatadir#"$prefix"/}/inputs/taylor_bar.yaml"
+}
+
+plugindir=$(pkg-config --variable=plugindir gamut)
 try 'pkg-config knows gamut' pkg-config --exists gamut
 try 'the command starts' "$GAMUT" list
 try 'every installed plugin is found' lists_every_plugin
@@ -72,5 +115,17 @@ for kind in eos strength elasticity effect random_field estimator solver; do
   try "a new $kind plugin builds and passes" new_plugin "$kind"
 done
 try 'the plugin guide can be followed' "${PYTHON:-python3}" "${0%/*}/../guide/follow.py"
+case $libdir/ in
+  "$prefix"/*)
+    try 'the tree is moved' moves
+    export PKG_CONFIG_PATH=$moved/${libdir#"$prefix"/}/pkgconfig
+    try 'pkg-config tells folders of the moved tree' moved_folders
+    try 'a program builds and runs against it' embeds
+    ;;
+  *)
+    number=$((number + 1))
+    echo "ok $number - the tree is moved # SKIP libdir is not below prefix"
+    ;;
+esac
 echo "1..$number"
 exit "$((failures > 0))"

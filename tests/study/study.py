@@ -77,22 +77,69 @@ def sweep_is_no_sample(said, rows, out):
            "the picture has a labelled curve a level", answer)
 
 
+def agree(folder, scene, what, due, options=(), words=""):
+    """`check` ends as `run` does, and has said why."""
+    given = [word for option in options for word in ("--set", option)]
+    run = gamut("run", scene, "-o", os.path.join(folder, "agree"), "--force", *given)
+    check = gamut("check", scene, *given)
+    report(check.code == run.code == due and words in check.said,
+           f"{what}: check ends with {check.code}, run with {run.code} (due {due})", check)
+    return check
+
+
 def unplanned_base(folder):
-    """What a plugin refuses of the scene below the levels is nothing to `check` either."""
+    """What a plugin refuses of the scene below the levels is nothing to `check` either, and levels
+    that cannot be planned are weighed as `run` does."""
     linear = PLATE.replace("cell: 1 mm", "cell: 1 mm, shape: linear, transfer: {model: apic}")
     scene = write(folder, "unplanned.yaml", linear
                   + "uncertainty: {estimator: {model: sweep, over: {solver.shape: [gimp]}}}\n")
     alone = gamut("check", scene, "--set", "uncertainty.estimator=off")
     report(alone.code == 3, "check refuses a base that a plugin refuses", alone)
-    for shapes, due in (("gimp", 0), ("linear, gimp", 0), ("linear, linear", 3)):
-        over = f"uncertainty.estimator.over={{solver.shape: [{shapes}]}}"
-        run = gamut("run", scene, "-o", os.path.join(folder, "unplanned"), "--force", "--set", over,
-                    "--set", "uncertainty.failures=0.5")
-        check = gamut("check", scene, "--set", over)
-        warned = check.said.count("cannot be run") == ("linear," in shapes)
-        report(check.code == run.code == due and warned,
-               f"a sweep over {shapes}: check ends with {check.code}, run with {run.code} "
-               f"(due {due})", check)
+    for shapes, share, due in (("gimp", 0.1, 0), ("linear, gimp", 0.5, 0), ("linear, gimp", 0.1, 5),
+                               ("gimp, gimp, linear", 0.4, 0), ("gimp, gimp, linear", 0.3, 5),
+                               ("linear, linear", 0.5, 3)):
+        check = agree(folder, scene, f"a sweep over {shapes}, failures {share}", due,
+                      [f"uncertainty.estimator.over={{solver.shape: [{shapes}]}}",
+                       f"uncertainty.failures={share}"])
+        told = check.said.count("cannot be run")
+        report(told == {0: "linear" in shapes, 5: 2, 3: 0}[due], f"levels told of: {told}",
+               check)
+    explained = gamut("explain", scene, "--set",
+                      "uncertainty.estimator.over={solver.shape: [linear, gimp]}")
+    report(explained.code == 0, "explain takes the first level that can be planned", explained)
+
+
+def unread_base(folder):
+    """What cannot be read of the scene below the levels neither: the first level stands for it."""
+    over = "uncertainty: {estimator: {model: sweep, over: {solver.cell: [1 mm, 2 mm]}}}\n"
+    for what, cell in (("without a cell", ""), ("with a cell of no size", "cell: 0 mm, "),
+                       ("with a cell in seconds", "cell: 1 s, ")):
+        scene = write(folder, "unread.yaml", PLATE.replace("cell: 1 mm, ", cell) + over)
+        alone = gamut("check", scene, "--set", "uncertainty.estimator=off")
+        report(alone.code == 3, f"a base {what} is refused", alone)
+        agree(folder, scene, f"a sweep over cells, base {what}", 0)
+        explained = gamut("explain", scene)
+        report(explained.code == 0, "explain reads it", explained)
+    agree(folder, scene, "levels that do not mend it", 3,
+          ["uncertainty.estimator.over={solver.courant: [0.2, 0.3]}"], "solver.cell")
+    agree(folder, scene, "a level that cannot be read", 3,
+          ["uncertainty.estimator.over={solver.cell: [1 mm, 2 s]}"], "2 s")
+    agree(folder, scene, "a path that leads nowhere", 3,
+          ["uncertainty.estimator.over={solver.cell.size: [1 mm]}"], "solver.cell")
+
+
+def unstarted_levels(folder):
+    """Levels that only the start can refuse: a wall within a body, from the second level on."""
+    wall = "  wall: {model: rigid_wall, plane: {point: [0 mm], normal: [1]}}\n"
+    walled = PLATE.replace("  viscosity:", wall + "  viscosity:")
+    scene = write(folder, "unstarted.yaml", walled + """uncertainty:
+  estimator: {model: sweep, over: {effects.wall.plane.point: [[0 mm], [5 mm]]}}
+""")
+    agree(folder, scene, "a level that cannot start", 5, (), "cannot be run")
+    agree(folder, scene, "the same where half may fail", 0, ["uncertainty.failures=0.5"],
+          "cannot be run")
+    agree(folder, scene, "no level that can start", 5,
+          ["uncertainty.estimator.over={effects.wall.plane.point: [[4 mm], [5 mm]]}"])
 
 
 def sweep_without_base(folder):
@@ -110,6 +157,8 @@ def sweep_without_base(folder):
     report(answer.code == 0 and [r["status"] for r in rows] == ["ok", "ok"]
            and [r["run"] for r in rows] == ["0", "1"], "its sweep does not", answer)
     unplanned_base(folder)
+    unread_base(folder)
+    unstarted_levels(folder)
     scene = write(folder, "first.yaml", PLATE + """uncertainty:
   failures: 0.5
   estimator: {model: sweep, over: {solver.step: [1 us, 20 ns]}}

@@ -11,7 +11,11 @@
  * Link with `pkg-config --cflags --libs gamut`. A session is for one thread at a time; several
  * sessions may live and run at once, each in a thread of its own: what they share is locked inside.
  * A null session, scene or `set` is refused with GAMUT_USAGE and a message; a null request is one
- * that is all zero; a null summary is one that nobody wants. */
+ * that is all zero; a null summary is one that nobody wants.
+ *
+ * Where memory ends a call fails with GAMUT_INTERNAL where it can. Deep in the reading of a scene
+ * or in formulas it cannot: there it is abort(), and inside of HDF5, UDUNITS and muParser whatever
+ * they do then. A program that must outlive that runs gamut in a process of its own. */
 #ifndef GAMUT_GAMUT_H
 #define GAMUT_GAMUT_H
 
@@ -52,7 +56,7 @@ struct gamut_run_request {
  * where nothing was run. Returns the status whose number is the exit code of `gamut run`. */
 GAMUT_API gamut_status gamut_run_scene(struct gamut_session *, const char *scene,
                                        const struct gamut_run_request *, char **summary);
-/* Validates a scene, runs nothing. */
+/* What is known of a scene before its first step, as `gamut check`; runs nothing. */
 GAMUT_API gamut_status gamut_check_scene(struct gamut_session *, const char *scene,
                                          const struct gamut_run_request *);
 
