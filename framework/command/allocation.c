@@ -10,8 +10,17 @@
 #include "error/exclusive.h"
 #include "error/memory.h"
 
-/* Sanitizers have an allocator of their own, which none may stand before. */
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+/* Sanitizers have an allocator of their own, which none may stand before. gcc says by a macro that
+ * there is one, clang otherwise. */
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define SANITIZED
+#endif
+#elif defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SANITIZED
+#endif
+
+#ifndef SANITIZED
 
 typedef void *malloc_function(size_t size);
 typedef void *calloc_function(size_t count, size_t size);

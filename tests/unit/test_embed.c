@@ -83,6 +83,25 @@ static void test_nulls(void)
   gamut_session_free(session);
 }
 
+/* What only a plan and a start can tell is known to the check. */
+static void test_check(void)
+{
+  static const char *const wrong[] = {"axis_beyond_geometry", "body_behind_wall",
+                                      "field_unknown_to_the_solver"};
+  const char *folder = getenv("builddir"), *source = getenv("srcdir");
+  if (!folder || !source) {
+    tap_skip("what a check knows", "the environment names no srcdir and builddir");
+    return;
+  }
+  for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+    char file[4096];
+    snprintf(file, sizeof file, "%s/tests/bad_inputs/%s.yaml", source, wrong[i]);
+    struct gamut_session *session = gamut_session_new(folder);
+    expect(session, gamut_check_scene(session, file, NULL), GAMUT_SCENE, wrong[i]);
+    gamut_session_free(session);
+  }
+}
+
 /* One of several sessions at work at the same time: a run with results on the disk, a study, a
  * scene that is wrong, plugins and units each time. */
 enum { SESSIONS = 4, TURNS = 3 };
@@ -196,6 +215,7 @@ int main(void)
   gamut_free(NULL);
   test_study();
   test_nulls();
+  test_check();
   test_threads();
   return tap_done();
 }
