@@ -25,6 +25,20 @@ const char *gamut_version(void)
   return GAMUT_VERSION;
 }
 
+/* What has been said, as text for the program. */
+static void keep_messages(struct gamut_session *session)
+{
+  char *text = NULL;
+  size_t size = 0;
+  FILE *stream = open_memstream(&text, &size);
+  if (stream) {
+    trace_print(session->trace, stream);
+    fclose(stream);
+  }
+  free(session->messages);
+  session->messages = text;
+}
+
 struct gamut_session *gamut_session_new(const char *plugin_path)
 {
   EXCLUSIVE;
@@ -42,6 +56,7 @@ struct gamut_session *gamut_session_new(const char *plugin_path)
     gamut_session_free(session);
     return NULL;
   }
+  keep_messages(session);
   return session;
 }
 
@@ -69,15 +84,7 @@ static gamut_status begin(struct gamut_session *session)
 
 static gamut_status end(struct gamut_session *session, gamut_status status)
 {
-  char *text = NULL;
-  size_t size = 0;
-  FILE *stream = open_memstream(&text, &size);
-  if (stream) {
-    trace_print(session->trace, stream);
-    fclose(stream);
-  }
-  free(session->messages);
-  session->messages = text;
+  keep_messages(session);
   gamut_status worst = trace_worst(session->trace);
   return worst != GAMUT_OK ? worst : status;
 }

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "tests/tap.h"
@@ -100,6 +101,19 @@ static void test_check(void)
     expect(session, gamut_check_scene(session, file, NULL), GAMUT_SCENE, wrong[i]);
     gamut_session_free(session);
   }
+}
+
+/* A folder of plugins that is skipped is told of, not only missed later. */
+static void test_skipped(void)
+{
+  char folder[] = P_tmpdir "/gamut-embed-XXXXXX";
+  tap_ok(mkdtemp(folder) && chmod(folder, 0777) == 0, "a folder that all may write to");
+  struct gamut_session *session = gamut_session_new(folder);
+  tap_ok(session && strstr(gamut_messages(session), folder) &&
+             strstr(gamut_messages(session), "is skipped"),
+         "it is skipped, with a word: %s", session ? gamut_messages(session) : "no session");
+  gamut_session_free(session);
+  rmdir(folder);
 }
 
 /* One of several sessions at work at the same time: a run with results on the disk, a study, a
@@ -216,6 +230,7 @@ int main(void)
   test_study();
   test_nulls();
   test_check();
+  test_skipped();
   test_threads();
   return tap_done();
 }
