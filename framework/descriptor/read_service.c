@@ -11,10 +11,12 @@ static void add_components(struct reader *reader, const char *name, unsigned com
                            const char **names, size_t *count)
 {
   for (unsigned k = 0; k < components; k++) {
-    char text[128];
     const char *part = component_name(components, k);
-    int length = snprintf(text, sizeof text, "%s%s%s", name, part[0] ? "_" : "", part);
-    const char *kept = reader_text(reader, text, (size_t)length);
+    /* A name that is too long has been reported, and is still read. */
+    const size_t size = strlen(name) + 1 + strlen(part) + 1;
+    char *text = reader_keep(reader, size, 1);
+    snprintf(text, size, "%s%s%s", name, part[0] ? "_" : "", part);
+    const char *kept = text;
     for (size_t i = 0; i < *count && kept; i++)
       if (strcmp(names[i], kept) == 0)
         kept = NULL;
