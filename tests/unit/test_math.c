@@ -2,6 +2,7 @@
  * ranges, the limits, and the same bits from a vectorised loop as from single calls. */
 #include <gamut/math.h>
 
+#include <fenv.h>
 #include <float.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -148,6 +149,55 @@ static void signs(void)
   report(good, "signs of zero", good ? 0 : 1, 0);
 }
 
+/* Near 0, where exp(x) - 1 and log(1 + x) live by what rounding leaves, in one rounding mode: within
+ * `allowed` ulps, of the argument's sign, 0 at 0. */
+static void near_zero(const struct function *f, int mode, const char *mode_name, double high,
+                      double allowed)
+{
+  double worst = 0, at = 0;
+  int wrong_sign = 0;
+  for (int i = 0; i < SAMPLES; i++) {
+    const double size = any_size(i % 2 ? -1074 : -60, high);
+    volatile double x = i % 4 < 2 ? size : -size, y;
+    const long double exact = f->exact((long double)x);
+    fesetround(mode);
+    y = f->ours(x);
+    fesetround(FE_TONEAREST);
+    const double error = ulps(y, exact);
+    wrong_sign += (y > 0) != (x > 0) || (y < 0) != (x < 0);
+    if (error > worst) {
+      worst = error;
+      at = x;
+    }
+  }
+  volatile double zero = 0;
+  fesetround(mode);
+  volatile double y = f->ours(zero);
+  fesetround(FE_TONEAREST);
+  wrong_sign += y != 0;
+  char text[160];
+  snprintf(text, sizeof text, "%s up to 2^%g, rounding %s: ulps (worst at %.17g)", f->name, high,
+           mode_name, at);
+  report(worst <= allowed, text, worst, allowed);
+  snprintf(text, sizeof text, "%s up to 2^%g, rounding %s: of another sign than x", f->name, high,
+           mode_name);
+  report(wrong_sign == 0, text, wrong_sign, 0);
+}
+
+/* A directed rounding of the last sum is off by less than 1 ulp. Up to 1/4 the terms beside x make
+ * up to an eighth of the sum, and three of their roundings count: 3/8 more. The exact value is itself
+ * known to 2^-11 ulp only. */
+static void rounding_modes(const struct function *f)
+{
+  near_zero(f, FE_TONEAREST, "to nearest", -2, 1.0);
+  near_zero(f, FE_UPWARD, "upward", -2, 1.375);
+  near_zero(f, FE_DOWNWARD, "downward", -2, 1.375);
+  near_zero(f, FE_TOWARDZERO, "towards zero", -2, 1.375);
+  near_zero(f, FE_UPWARD, "upward", -20, 1.0 + 0x1p-10);
+  near_zero(f, FE_DOWNWARD, "downward", -20, 1.0 + 0x1p-10);
+  near_zero(f, FE_TOWARDZERO, "towards zero", -20, 1.0 + 0x1p-10);
+}
+
 static void lanes(void)
 {
   static double x[LANES], y[LANES], a[LANES], b[LANES], c[LANES], d[LANES], e[LANES];
@@ -197,6 +247,8 @@ int main(void)
   sweep_pow("near 1, large exponents", -0.001, 0.001, -1e6, 1e6);
   sweep_pow("all sizes", -1074, 1024, -1, 1);
   sweep_pow("wide", -300, 300, -3.4, 3.4);
+  rounding_modes(&less_one);
+  rounding_modes(&plus_one);
   limits();
   signs();
   lanes();

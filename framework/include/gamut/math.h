@@ -28,6 +28,7 @@
 /* log 2 = high + low; the high part has 21 trailing zero bits, so that k * high is exact. */
 #define GAMUT_LN2_HIGH 6.93147180369123816490e-01
 #define GAMUT_LN2_LOW 1.90821492927058770002e-10
+#define GAMUT_1_LN2 1.4426950408889634074
 #define GAMUT_ROUNDER 6755399441055744.0 /* 1.5 * 2^52: adding it rounds to an integer */
 
 GAMUT_INLINE uint64_t gamut_bits(double x)
@@ -92,14 +93,15 @@ GAMUT_INLINE double gamut_log1p(double x)
   double k, f = gamut_split(u, &k) - 1.0;
   double y = gamut_log_sum(k, f, lost / u);
   y = x < HUGE_VAL ? y : x;
-  y = x == 0.0 ? x : y; /* keeps the sign of zero */
+  /* Near 0 from the series, as 1 + x may be rounded away from 1; keeps the sign of zero. */
+  y = fabs(x) < 1e-7 ? x - x * x * (0.5 - x * (1.0 / 3)) : y;
+  y = fabs(x) < 1e-290 ? x : y;
   return x > -1.0 ? y : x == -1.0 ? -HUGE_VAL : x < -1.0 ? (double)NAN : y;
 }
 
 /* x + x_low = k log 2 + r with |r| <= log(2) / 2; exp(r) - 1 = r + *tail. */
-GAMUT_INLINE double gamut_exp_reduce(double x, double x_low, double *k, double *tail)
+GAMUT_INLINE double gamut_exp_reduce(double x, double x_low, double n, double *tail)
 {
-  double n = (x * 1.4426950408889634074 + GAMUT_ROUNDER) - GAMUT_ROUNDER;
   double high = x - n * GAMUT_LN2_HIGH, low = n * GAMUT_LN2_LOW - x_low;
   double r = high - low, rounding = (high - r) - low;
   double r2 = r * r, r4 = r2 * r2;
@@ -107,7 +109,6 @@ GAMUT_INLINE double gamut_exp_reduce(double x, double x_low, double *k, double *
   double p2 = 1.0 / 5040 + r * (1.0 / 40320), p3 = 1.0 / 362880 + r * (1.0 / 3628800);
   double p4 = 1.0 / 39916800 + r * (1.0 / 479001600 + r * (1.0 / 6227020800.0));
   double p = (p0 + r2 * p1) + r4 * ((p2 + r2 * p3) + r4 * p4);
-  *k = n;
   *tail = 0.5 * r2 + (r * r2 * p + (rounding + rounding * r));
   return r;
 }
@@ -116,7 +117,8 @@ GAMUT_INLINE double gamut_exp_reduce(double x, double x_low, double *k, double *
 GAMUT_INLINE double gamut_exp_sum(double x, double x_low)
 {
   x = x < -746.0 ? -746.0 : x > 710.0 ? 710.0 : x;
-  double k, tail, r = gamut_exp_reduce(x, x_low, &k, &tail);
+  double k = (x * GAMUT_1_LN2 + GAMUT_ROUNDER) - GAMUT_ROUNDER;
+  double tail, r = gamut_exp_reduce(x, x_low, k, &tail);
   double y = 1.0 + (r + tail);
   /* In two factors: 2^k alone would overflow, or lose bits twice among the denormals. */
   double first = (k * 0.5 + GAMUT_ROUNDER) - GAMUT_ROUNDER;
@@ -131,7 +133,11 @@ GAMUT_INLINE double gamut_exp(double x)
 GAMUT_INLINE double gamut_expm1(double x)
 {
   double bounded = x < -60.0 ? -60.0 : x > 710.0 ? 710.0 : x;
-  double k, tail, r = gamut_exp_reduce(bounded, 0.0, &k, &tail);
+  /* The nearest whole number in every rounding mode: near 0 any other would cost all digits. */
+  double powers = bounded * GAMUT_1_LN2, k = (powers + GAMUT_ROUNDER) - GAMUT_ROUNDER;
+  double off = powers - k;
+  k += off > 0.5 ? 1.0 : off < -0.5 ? -1.0 : 0.0;
+  double tail, r = gamut_exp_reduce(bounded, 0.0, k, &tail);
   /* Half the result, as 2^1024 is no double: (scale - 1/2) + scale r + scale tail, the first sum
    * with its rounding error kept. */
   double scale = gamut_power_of_two(k - 1.0), base = scale - 0.5, step = scale * r;
