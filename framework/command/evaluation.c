@@ -311,9 +311,9 @@ static gamut_status derive_point(struct evaluation *e, size_t point, double *own
 {
   gamut_status status = GAMUT_OK;
   size_t n = e->bys, own = e->descriptor->derivatives;
-  if (own > 0)
-    TRY(bench_derivatives(e->bench, point, false, own_first, own_second));
   copy_to_probe(e, point);
+  if (own > 0)
+    TRY(bench_derivatives(e->probe, 0, false, own_first, own_second));
   for (size_t k = 0; k < n; k++) {
     int a = e->by[k].own;
     e->first[point * n + k] = a >= 0 ? own_first[a] : by_differences(e, k, k, false);

@@ -1,3 +1,4 @@
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -145,9 +146,33 @@ void bench_offer_derivatives(struct bench *bench, bool offer)
       bench->image->pointer[s] = offer ? row(bench, s) : NULL;
 }
 
+static void move_block(struct bench *bench, ptrdiff_t points)
+{
+  struct image *image = bench->image;
+  image->status += points;
+  for (size_t s = 0; s < bench->kernel->slots; s++)
+    if (bench->kernel->slot[s].kind != SLOT_LAW && image->pointer[s])
+      image->pointer[s] = (double *)image->pointer[s] + points;
+}
+
+/* A block holds at most GAMUT_CHUNK_MAX points: kernels count on it. */
+static void call_in_blocks(struct bench *bench, kernel_function operation, size_t count)
+{
+  size_t from = 0;
+  for (; count - from > GAMUT_CHUNK_MAX; from += GAMUT_CHUNK_MAX) {
+    bench->image->count = GAMUT_CHUNK_MAX;
+    operation(bench->image);
+    move_block(bench, GAMUT_CHUNK_MAX);
+  }
+  bench->image->count = count - from;
+  operation(bench->image);
+  move_block(bench, -(ptrdiff_t)from);
+  bench->image->count = count;
+}
+
 void bench_call(struct bench *bench, kernel_function operation, size_t count)
 {
-  bench->image->count = count;
+  assert(count <= GAMUT_CHUNK_MAX || (!bench->eos && !bench->strength));
   memset(bench->image->status, 0, (bench->count + GUARD) * sizeof *bench->image->status);
   struct law *law[] = {bench->eos, bench->strength};
   for (int i = 0; i < 2; i++)
@@ -158,7 +183,7 @@ void bench_call(struct bench *bench, kernel_function operation, size_t count)
   if (bench->strength && temperature)
     memcpy(bench->strength->strength.temperature, temperature, count * sizeof *temperature);
   const char *before = guard_enter(bench->kernel->descriptor->id);
-  operation(bench->image);
+  call_in_blocks(bench, operation, count);
   guard_leave(before);
 }
 

@@ -60,68 +60,72 @@ static void rate_independent(const struct johnson_cook *b)
     law(b, i, 0.0);
 }
 
-/* Arrays that the core does not want are null; each loop fills one that it does. */
+/* What derivatives are made of, a number a point: exponentials and logarithms are taken once,
+ * whatever the core wants. */
+struct terms {
+  double h[GAMUT_CHUNK_MAX], hl[GAMUT_CHUNK_MAX],
+      hll[GAMUT_CHUNK_MAX]; /* strain^n, times ln, ln^2 */
+  double q[GAMUT_CHUNK_MAX], ql[GAMUT_CHUNK_MAX], qll[GAMUT_CHUNK_MAX]; /* T*^m, likewise */
+  double log_rate[GAMUT_CHUNK_MAX];
+  double hardening[GAMUT_CHUNK_MAX], rate_factor[GAMUT_CHUNK_MAX], softening[GAMUT_CHUNK_MAX];
+};
+
+static void find_terms(const struct johnson_cook *b, struct terms *t)
+{
+  GAMUT_EACH (i, b) {
+    struct factors f = factors_of(b->n[i], b->m[i], b->plastic_strain[i],
+                                  b->plastic_strain_rate[i] / b->reference_rate[i], b->T_room[i],
+                                  b->T_melt[i], b->temperature[i]);
+    t->h[i] = f.power;
+    t->hl[i] = f.power * f.log_strain;
+    t->hll[i] = f.power * f.log_strain * f.log_strain;
+    t->q[i] = f.heat;
+    t->ql[i] = f.heat * f.log_warmth;
+    t->qll[i] = f.heat * f.log_warmth * f.log_warmth;
+    t->log_rate[i] = f.log_rate;
+    t->hardening[i] = b->A[i] + b->B[i] * f.power;
+    t->rate_factor[i] = 1.0 + b->C[i] * f.log_rate;
+    t->softening[i] = 1.0 - f.heat;
+  }
+}
+
+/* Arrays that the core does not want are null. */
 #define FILL(array, value)                                                                         \
   do {                                                                                             \
     if (b->array)                                                                                  \
-      GAMUT_EACH (i, b) {                                                                          \
-        struct terms t = terms_of(b, i);                                                           \
-        b->array[i] = (value);                                                                     \
-      }                                                                                            \
-  } while (0)
-#define FILL_ZERO(array)                                                                           \
-  do {                                                                                             \
-    if (b->array)                                                                                  \
       GAMUT_EACH (i, b)                                                                            \
-        b->array[i] = 0.0;                                                                         \
+        b->array[i] = (value);                                                                     \
   } while (0)
 
-struct terms {
-  double h, hl, hll; /* plastic_strain^n times 1, ln, ln^2 of plastic strain */
-  double q, ql, qll; /* T*^m times 1, ln, ln^2 of T* */
-  double B, log_rate, hardening, rate_factor, softening;
-};
-
-GAMUT_INLINE struct terms terms_of(const struct johnson_cook *b, size_t i)
+static void first_derivatives(const struct johnson_cook *b, const struct terms *t)
 {
-  struct factors f = factors_of(b->n[i], b->m[i], b->plastic_strain[i],
-                                b->plastic_strain_rate[i] / b->reference_rate[i], b->T_room[i],
-                                b->T_melt[i], b->temperature[i]);
-  return (struct terms){.h = f.power,
-                        .hl = f.power * f.log_strain,
-                        .hll = f.power * f.log_strain * f.log_strain,
-                        .q = f.heat,
-                        .ql = f.heat * f.log_warmth,
-                        .qll = f.heat * f.log_warmth * f.log_warmth,
-                        .B = b->B[i],
-                        .log_rate = f.log_rate,
-                        .hardening = b->A[i] + b->B[i] * f.power,
-                        .rate_factor = 1.0 + b->C[i] * f.log_rate,
-                        .softening = 1.0 - f.heat};
+  FILL(flow_stress_by_A, t->rate_factor[i] * t->softening[i]);
+  FILL(flow_stress_by_B, t->h[i] * t->rate_factor[i] * t->softening[i]);
+  FILL(flow_stress_by_C, t->hardening[i] * t->log_rate[i] * t->softening[i]);
+  FILL(flow_stress_by_n, b->B[i] * t->hl[i] * t->rate_factor[i] * t->softening[i]);
+  FILL(flow_stress_by_m, -t->hardening[i] * t->rate_factor[i] * t->ql[i]);
 }
 
 static void derivatives(const struct johnson_cook *b)
 {
-  FILL(flow_stress_by_A, t.rate_factor * t.softening);
-  FILL(flow_stress_by_B, t.h * t.rate_factor * t.softening);
-  FILL(flow_stress_by_C, t.hardening * t.log_rate * t.softening);
-  FILL(flow_stress_by_n, t.B * t.hl * t.rate_factor * t.softening);
-  FILL(flow_stress_by_m, -t.hardening * t.rate_factor * t.ql);
-  FILL_ZERO(flow_stress_by_A_A);
-  FILL_ZERO(flow_stress_by_A_B);
-  FILL(flow_stress_by_A_C, t.log_rate * t.softening);
-  FILL_ZERO(flow_stress_by_A_n);
-  FILL(flow_stress_by_A_m, -t.rate_factor * t.ql);
-  FILL_ZERO(flow_stress_by_B_B);
-  FILL(flow_stress_by_B_C, t.h * t.log_rate * t.softening);
-  FILL(flow_stress_by_B_n, t.hl * t.rate_factor * t.softening);
-  FILL(flow_stress_by_B_m, -t.h * t.rate_factor * t.ql);
-  FILL_ZERO(flow_stress_by_C_C);
-  FILL(flow_stress_by_C_n, t.B * t.hl * t.log_rate * t.softening);
-  FILL(flow_stress_by_C_m, -t.hardening * t.log_rate * t.ql);
-  FILL(flow_stress_by_n_n, t.B * t.hll * t.rate_factor * t.softening);
-  FILL(flow_stress_by_n_m, -t.B * t.hl * t.rate_factor * t.ql);
-  FILL(flow_stress_by_m_m, -t.hardening * t.rate_factor * t.qll);
+  struct terms terms, *t = &terms;
+  find_terms(b, t);
+  first_derivatives(b, t);
+  FILL(flow_stress_by_A_A, 0.0);
+  FILL(flow_stress_by_A_B, 0.0);
+  FILL(flow_stress_by_A_C, t->log_rate[i] * t->softening[i]);
+  FILL(flow_stress_by_A_n, 0.0);
+  FILL(flow_stress_by_A_m, -t->rate_factor[i] * t->ql[i]);
+  FILL(flow_stress_by_B_B, 0.0);
+  FILL(flow_stress_by_B_C, t->h[i] * t->log_rate[i] * t->softening[i]);
+  FILL(flow_stress_by_B_n, t->hl[i] * t->rate_factor[i] * t->softening[i]);
+  FILL(flow_stress_by_B_m, -t->h[i] * t->rate_factor[i] * t->ql[i]);
+  FILL(flow_stress_by_C_C, 0.0);
+  FILL(flow_stress_by_C_n, b->B[i] * t->hl[i] * t->log_rate[i] * t->softening[i]);
+  FILL(flow_stress_by_C_m, -t->hardening[i] * t->log_rate[i] * t->ql[i]);
+  FILL(flow_stress_by_n_n, b->B[i] * t->hll[i] * t->rate_factor[i] * t->softening[i]);
+  FILL(flow_stress_by_n_m, -b->B[i] * t->hl[i] * t->rate_factor[i] * t->ql[i]);
+  FILL(flow_stress_by_m_m, -t->hardening[i] * t->rate_factor[i] * t->qll[i]);
 }
 
 GAMUT_STRENGTH(johnson_cook, .flow_stress = flow_stress, .rate_independent = rate_independent,
