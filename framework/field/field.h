@@ -76,7 +76,11 @@ struct point_set {
   double *spare;      /* only while points are rearranged */
   int threads;        /* that arrange may use; 0 and 1: no others */
   size_t material;
+  double *derived;    /* of the measure of points that is asked for now; null, or one a slot */
+  size_t derived_capacity;
 };
+/* A measure of points as a field of one component: what set_derive() has worked out. */
+enum { SET_DERIVED = 0x7fffffff };
 /* The whole set of its public part, and the number of its material. */
 struct point_set *set_inside(const struct gamut_set *);
 size_t set_material(const struct gamut_set *);
@@ -93,6 +97,8 @@ gamut_status set_arrange(struct point_set *, const uint32_t *source, size_t slot
  * The values of its arrays are then the caller's to set. */
 gamut_status set_reshape(struct point_set *, size_t points, const int64_t *id, size_t slots,
                          const size_t *first, size_t blocks, struct trace *);
+/* Room for a derived value of each slot; null where there is no memory. */
+double *set_derive(struct point_set *);
 /* gamut_host.drop */
 void set_drop(struct point_set *, const uint32_t *slot, size_t count);
 double *set_stored(const struct point_set *, struct gamut_field, unsigned component);

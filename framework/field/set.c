@@ -59,6 +59,7 @@ void set_free(struct point_set *set)
     return;
   give_arrays(set);
   free(set->first);
+  free(set->derived);
   free(set);
 }
 
@@ -290,7 +291,19 @@ void set_drop(struct point_set *set, const uint32_t *slot, size_t count)
 
 double *set_stored(const struct point_set *set, struct gamut_field field, unsigned component)
 {
+  if (field.first == SET_DERIVED)
+    return set->derived;
   return set->array ? set->array[field.first + component] : NULL;
+}
+
+double *set_derive(struct point_set *set)
+{
+  if (set->derived_capacity < set->open.slots || !set->derived) {
+    free(set->derived);
+    set->derived_capacity = set->capacity > set->open.slots ? set->capacity : set->open.slots;
+    set->derived = malloc((set->derived_capacity + 1) * sizeof *set->derived);
+  }
+  return set->derived;
 }
 
 size_t set_find(const struct point_set *set, int64_t id)

@@ -3,6 +3,7 @@
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "registry/inside.h"
 
@@ -257,6 +258,7 @@ gamut_status registry_add(struct registry *registry, const char *path, struct tr
 {
   char real[PATH_MAX], file[2 * PATH_MAX];
   struct entry *entry = NULL;
+  struct stat info;
   *descriptor = NULL;
   if (!realpath(path, real))
     return trace_fail_at(trace, GAMUT_PLUGIN, &nowhere, NULL,
@@ -265,7 +267,7 @@ gamut_status registry_add(struct registry *registry, const char *path, struct tr
   snprintf(file, sizeof file, "%s", real);
   if (is_folder(real)) {
     snprintf(file, sizeof file, "%s/%s.yaml", real, strrchr(real, '/') + 1);
-    if (!is_file(file))
+    if (lstat(file, &info) != 0)
       return trace_fail_at(trace, GAMUT_PLUGIN, &nowhere, NULL,
                            "a plugin's folder and its YAML have one name", "'%s' is missing", file);
   }

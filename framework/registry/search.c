@@ -263,6 +263,22 @@ done:
   return status;
 }
 
+/* Whether what stands there is no file and no link to one, which is then said. */
+static bool is_odd(const char *file, struct trace *trace)
+{
+  struct stat info;
+  char why[256] = "it is no file", *text = NULL;
+  size_t size;
+  if (lstat(file, &info) != 0 || is_file(file))
+    return false;
+  text_load(file, 0, &text, &size, why, sizeof why);
+  free(text);
+  const struct place place = {.file = file};
+  trace_warn_at(trace, &place, NULL, "a plugin's YAML is a file, or a link to one",
+                "this plugin is skipped: %s", why);
+  return true;
+}
+
 static gamut_status take_at(struct registry *registry, struct root *root, const char *below,
                             const char *name, struct trace *trace)
 {
@@ -270,7 +286,7 @@ static gamut_status take_at(struct registry *registry, struct root *root, const 
   struct entry *entry = NULL;
   gamut_status status = GAMUT_OK;
   snprintf(file, sizeof file, "%s%s%s/%s.yaml", root->yaml, below[0] ? "/" : "", below, name);
-  if (!is_file(file))
+  if (is_odd(file, trace) || !is_file(file))
     return GAMUT_OK;
   char *objects = path_join(root->objects, below);
   if (!objects)
@@ -311,7 +327,7 @@ static gamut_status take_item(struct registry *registry, struct root *root, cons
   if (length > 5 && strcmp(item + length - 5, ".yaml") == 0) {
     char name[512];
     snprintf(name, sizeof name, "%.*s", (int)(length - 5), item);
-    if (!strchr(name, '.') && claims_to_be_plugin(root->yaml, name))
+    if (!strchr(name, '.') && !is_odd(path, trace) && claims_to_be_plugin(root->yaml, name))
       status = take_at(registry, root, "", name, trace);
     return status;
   }

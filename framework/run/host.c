@@ -12,11 +12,18 @@ static const char *owner_of(const struct gamut_run *run)
   return run->creating ? run->creating->label : "solver";
 }
 
+/* What a plugin that names no place of its own is blamed at. */
+static const struct tree *node_of(const struct gamut_run *run)
+{
+  return run->sampling    ? run->sampling->node
+         : run->creating  ? run->creating->effect->instance.node
+         : run->measuring ? run->measuring->node
+                          : run->scene->solver.node;
+}
+
 static gamut_status host_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
 {
-  const struct tree *node = run->creating    ? run->creating->effect->instance.node
-                            : run->measuring ? run->measuring->node
-                                             : NULL;
+  const struct tree *node = node_of(run);
   va_list list;
   va_start(list, format);
   status = host_words_fail(run->trace, status, node, format, list);
@@ -151,6 +158,20 @@ static gamut_status host_field(struct gamut_run *run, const char *name, struct g
 {
   const struct vocable *vocable = vocabulary_find(name);
   struct field *field = fields_find(run->fields, name);
+  bool derived = false;
+  if (run->measured && wants_derive(run, name, &derived) != GAMUT_OK)
+    return GAMUT_INTERNAL;
+  if (derived) {
+    *handle = (struct gamut_field){.first = SET_DERIVED, .components = 1};
+    return GAMUT_OK;
+  }
+  unsigned component;
+  const struct field *whole =
+      run->measured && !field ? fields_component(run->fields, name, &component) : NULL;
+  if (whole) {
+    *handle = (struct gamut_field){.first = whole->handle.first + component, .components = 1};
+    return GAMUT_OK;
+  }
   if (!field && vocable)
     field = fields_add(run->fields, vocable->name, vocable->where, vocable->components,
                        vocable->unit, vocable->meaning, run->trace);

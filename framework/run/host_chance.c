@@ -155,8 +155,11 @@ static gamut_status sample_field(struct gamut_run *run, const struct value *valu
   struct chance *chance = NULL;
   const struct gamut_stream stream = host_stream(run, name);
   TRY(find_field(run, value, &chance));
-  TRY(GUARDED(value->model->id,
-              chance->ops->sample(chance->self, &stream, count, position, id, sampled)));
+  run->sampling = value;
+  status = GUARDED(value->model->id,
+                   chance->ops->sample(chance->self, &stream, count, position, id, sampled));
+  run->sampling = NULL;
+  TRY(status);
   for (size_t i = 0; i < count; i++)
     if (!isfinite(sampled[i])) {
       status = trace_fail(run->trace, GAMUT_NUMERICS,

@@ -42,8 +42,9 @@ gamut_status host_law(struct gamut_run *run, const struct gamut_body *body, cons
   law->next = run->law;
   run->law = law;
   if (!instance->descriptor)
-    return trace_fail(run->trace, GAMUT_SCENE, "%s needs the %s of material '%s', which has none",
-                      run->scene->solver.descriptor->id, kind, material->name);
+    return trace_fail_at(run->trace, GAMUT_SCENE, material->node ? &material->node->place : NULL,
+                         kind, NULL, "%s needs the %s of material '%s', which has none",
+                         run->scene->solver.descriptor->id, kind, material->name);
   TRY(kernel_new(instance, run->registry, run->arena, GAMUT_LANES, material->extra,
                  material->density, run->trace, &law->kernel));
   TRY(kernel_try(law->kernel, run->trace));

@@ -1,6 +1,7 @@
 /* What plugins say, as messages for people: for the host tables of runs, studies and checks. */
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "run/host.h"
 
@@ -17,16 +18,32 @@ gamut_status host_words_fail(struct trace *trace, gamut_status status, const str
                        text);
 }
 
+/* What stands at the path below a node; as far down as there is something. */
+static const struct tree *below(const struct tree *node, const char *path)
+{
+  char key[256];
+  while (node && *path) {
+    const size_t length = strcspn(path, ".");
+    snprintf(key, sizeof key, "%.*s", (int)length, path);
+    const struct tree *part = tree_get(node, key);
+    if (!part)
+      break;
+    node = part;
+    path += length + (path[length] == '.');
+  }
+  return node;
+}
+
 gamut_status host_words_fail_at(struct trace *trace, const struct gamut_values *values,
                                 const char *path, const char *expected, const char *format,
                                 va_list list)
 {
   char text[WORDS], where[512];
   const struct value *value = values_find(values, path);
-  const struct tree *node = value && value->node ? value->node : values->node;
+  const struct tree *node = value && value->node ? value->node : below(values->node, path);
   vsnprintf(text, sizeof text, format, list);
   snprintf(where, sizeof where, "%s%s%s", values->path ? values->path : "",
-           values->path && *values->path ? "." : "", path);
+           values->path && *values->path && *path ? "." : "", path);
   return trace_fail_at(trace, GAMUT_SCENE, node ? &node->place : NULL, where, expected, "%s", text);
 }
 

@@ -66,6 +66,7 @@ struct probe {
   const struct quantity *quantity;
   struct history *history;
   struct formula formula; /* for points */
+  struct formula derived; /* the argument `field`, where it names a measure of points */
   struct running_effect *effect; /* provider, or null: the solver */
   int64_t id;             /* the point that is followed */
   size_t slot;            /* where it was last */
@@ -125,6 +126,8 @@ struct gamut_run {
   struct probe **follower; /* those that follow a point, by body and id */
   size_t followers;
   const struct quantity *measuring; /* what a plugin measures now, for messages */
+  struct probe *measured;           /* what it is for */
+  const struct value *sampling;     /* what a random field is drawn for now, for messages */
   struct frame_column *column;
   size_t columns;
 
@@ -201,7 +204,11 @@ void given_mark(struct gamut_run *);
 void given_fill(struct gamut_run *);
 
 /* wants.c: tells the scheduler of the fields that a quantity's argument `field` needs. */
-gamut_status wants_of_arguments(struct gamut_run *, const struct quantity *, const char *why);
+/* Leaves in `derived` the formula of the measure of points that the argument `field` names. */
+gamut_status wants_of_arguments(struct gamut_run *, const struct quantity *, const char *why,
+                                struct formula *derived);
+/* Works out that measure for all points of the body that is being measured, where it is `name`. */
+gamut_status wants_derive(struct gamut_run *, const char *name, bool *derived);
 
 /* observe.c */
 gamut_status observe_create(struct gamut_run *);

@@ -43,6 +43,7 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
   const struct descriptor *solver = run->scene->solver.descriptor;
   probe->quantity = quantity;
   probe->formula.plain = SIZE_MAX;
+  probe->derived.plain = SIZE_MAX;
   probe->id = -1;
   TRY(check_samples(run, quantity, samples));
   probe->history = history_new(quantity, run->end);
@@ -59,7 +60,7 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
   }
   snprintf(why, sizeof why, "quantity '%s'",
            quantity->family ? quantity->family : quantity->name);
-  TRY(wants_of_arguments(run, quantity, why));
+  TRY(wants_of_arguments(run, quantity, why, &probe->derived));
   if (from_points(quantity)) {
     if (quantity->measure && quantity->measure->formula)
       TRY(formula_new(run, quantity->measure, &probe->formula));
@@ -105,6 +106,7 @@ void observe_free(struct gamut_run *run)
   for (size_t i = 0; i < run->probes; i++) {
     history_free(run->probe[i].history);
     formula_free(&run->probe[i].formula);
+    formula_free(&run->probe[i].derived);
   }
   free(run->probe);
   free(run->history);
@@ -259,8 +261,10 @@ static gamut_status probe_value(struct gamut_run *run, struct probe *probe,
   }
   const struct gamut_body *body = q->body >= 0 ? &run->scene->body[q->body] : NULL;
   run->measuring = q;
+  run->measured = probe;
   gamut_status status = call_measure(run, probe->effect, measure->name, body, q->arguments, value);
   run->measuring = NULL;
+  run->measured = NULL;
   if (status == GAMUT_PLUGIN && trace_errors(run->trace) == 0)
     trace_fail(run->trace, GAMUT_PLUGIN, "%s declares the measure '%s' and does not know it",
                provider_id(run, probe->effect), measure->name);

@@ -18,7 +18,7 @@ static const struct measure *of_points(const struct gamut_run *run, const struct
 }
 
 gamut_status wants_of_arguments(struct gamut_run *run, const struct quantity *quantity,
-                                const char *why)
+                                const char *why, struct formula *derived)
 {
   gamut_status status;
   struct formula formula = {.plain = SIZE_MAX};
@@ -42,7 +42,28 @@ gamut_status wants_of_arguments(struct gamut_run *run, const struct quantity *qu
                          "a field, a component of one (stress_xx), or a measure of points",
                          "no plugin of this scene has a field '%s'", field->text);
   formula_want(&formula, run, (size_t)quantity->body, why, place);
+  if (measure)
+    *derived = formula;
 done:
-  formula_free(&formula);
+  if (!derived->expression)
+    formula_free(&formula);
   return status;
+}
+
+gamut_status wants_derive(struct gamut_run *run, const char *name, bool *derived)
+{
+  struct probe *probe = run->measured;
+  const struct value *field =
+      probe && probe->derived.expression ? values_find(probe->quantity->arguments, "field") : NULL;
+  *derived = field && strcmp(field->text, name) == 0;
+  if (!*derived)
+    return GAMUT_OK;
+  struct point_set *set = run->set[probe->quantity->body];
+  double *value = set_derive(set);
+  if (!value)
+    return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  for (size_t slot = 0; slot < set->open.slots; slot++)
+    value[slot] =
+        set->id[slot] >= 0 ? formula_value(&probe->derived, run, set, slot) : 0.0;
+  return GAMUT_OK;
 }

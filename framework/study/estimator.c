@@ -9,16 +9,16 @@
 
 enum { BYTES_A_BATCH = 1 << 26, ROWS_MIN = 16, ROWS_MAX = 4096 };
 
-static struct trace *trace_of(struct gamut_run *run)
+static const struct estimator_host *host_of(struct gamut_run *run)
 {
-  return ((struct estimator_host *)(void *)run)->trace;
+  return (const struct estimator_host *)(const void *)run;
 }
 
 static gamut_status study_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  status = host_words_fail(trace_of(run), status, NULL, format, list);
+  status = host_words_fail(host_of(run)->trace, status, host_of(run)->node, format, list);
   va_end(list);
   return status;
 }
@@ -28,7 +28,8 @@ static gamut_status study_fail_at(struct gamut_run *run, const struct gamut_valu
 {
   va_list list;
   va_start(list, format);
-  gamut_status status = host_words_fail_at(trace_of(run), values, path, expected, format, list);
+  gamut_status status =
+      host_words_fail_at(host_of(run)->trace, values, path, expected, format, list);
   va_end(list);
   return status;
 }
@@ -37,7 +38,7 @@ static void study_warn(struct gamut_run *run, const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  host_words_warn(trace_of(run), format, list);
+  host_words_warn(host_of(run)->trace, format, list);
   va_end(list);
 }
 
@@ -90,7 +91,8 @@ gamut_status estimator_new(struct study *study)
                                           .variance_lower = moment + 6 * values,
                                           .variance_upper = moment + 7 * values,
                                           .heavy_tail = moment + 8 * values};
-  study->host = (struct estimator_host){.head = {&study_host}, .trace = study->trace};
+  study->host = (struct estimator_host){
+      .head = {&study_host}, .trace = study->trace, .node = instance->node};
   host_of_values(instance->values, &study_host);
   const struct gamut_study_shape shape = {
       .parameters = study->parameters,

@@ -51,6 +51,7 @@ struct outcome {
 struct estimator_host {
   struct gamut_run_head head; /* first */
   struct trace *trace;
+  const struct tree *node; /* of the estimator in the scene */
 };
 
 /* What truncation takes away from the distribution of a parameter, or a constraint from that of all

@@ -1,5 +1,5 @@
-"""A shared object that lies beside a digest (NAME.so.sha256) and is not the one that it was made of is
-refused before it is opened; so is one beside a file that holds no digest. Prints TAP."""
+"""A shared object that lies beside a digest (NAME.so.sha256) and is not the one that it was made of
+is refused before it is opened; so is one beside a file that holds no digest. Prints TAP."""
 import hashlib
 import os
 import shutil

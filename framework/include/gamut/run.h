@@ -185,7 +185,9 @@ struct gamut_host {
 
   /* Records an error for people and returns `status`. Thread-safe. */
   gamut_status (*fail)(struct gamut_run *, gamut_status status, const char *format, ...);
-  /* As fail, naming the place in the scene of the value at `path` (dotted). */
+  /* As fail, naming the place in the scene of the value at `path` (dotted), or of another key that
+   * stands there, such as a body's `material`; "" is the whole. `fail` names the effect, the
+   * quantity, the random field or the solver that is at work. */
   gamut_status (*fail_at)(struct gamut_run *, const struct gamut_values *, const char *path,
                           const char *expected, const char *format, ...);
   /* Records a warning: printed, and kept in the results. */

@@ -28,9 +28,11 @@ static gamut_status law_new(struct bar *bar, size_t from, struct family_law *law
   law->n = host->law_array(law->law, "n");
   law->K = host->law_array(law->law, "K");
   if (!law->given || !law->inverse || !law->strain || !law->flow || !law->slope)
-    return gamut_fail(bar->run, GAMUT_SCENE,
-                      "solver/gamut_bar needs a strength that gives the plastic strain at a stress "
-                      "(`inverse: true` in its descriptor), such as ramberg_osgood");
+    return gamut_fail_at(bar->run, host->body_values(bar->body), "material",
+                         "a strength with `inverse: true` in its descriptor, as ramberg_osgood",
+                         "solver/gamut_bar needs the plastic strain at a stress, which the "
+                         "strength '%s' of this material does not give",
+                         host->body_strength(bar->run, bar->body));
   return GAMUT_OK;
 }
 

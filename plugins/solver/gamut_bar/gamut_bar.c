@@ -114,11 +114,15 @@ static gamut_status add_step(struct bar *bar)
 static gamut_status read_body(struct bar *bar)
 {
   struct gamut_run *run = bar->run;
-  if (gamut_bodies(run) != 1)
-    return gamut_fail(run, GAMUT_SCENE, "solver/gamut_bar takes one body, the bar; there are %zu",
-                      gamut_bodies(run));
+  const struct gamut_host *host = GAMUT_HOST(run);
+  if (gamut_bodies(run) == 0)
+    return gamut_fail(run, GAMUT_SCENE, "solver/gamut_bar takes one body, the bar; there is none");
+  if (gamut_bodies(run) > 1)
+    return gamut_fail_at(run, host->body_values(gamut_body_at(run, 1)), "", "one body",
+                         "solver/gamut_bar takes one body, the bar; there are %zu",
+                         gamut_bodies(run));
   bar->body = gamut_body_at(run, 0);
-  const struct gamut_values *own = GAMUT_HOST(run)->body_values(bar->body);
+  const struct gamut_values *own = host->body_values(bar->body);
   bar->span = gamut_real(own, "length");
   bar->area = gamut_real(own, "area");
   return gamut_points(run, bar->body, bar->bonds, &bar->set);

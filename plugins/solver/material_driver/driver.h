@@ -64,6 +64,7 @@ struct point {
 
 struct driver {
   struct gamut_run *run;
+  const struct gamut_values *values;
   struct path path;
   double step;
   size_t points;

@@ -90,6 +90,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   if (!driver)
     return gamut_fail(run, GAMUT_INTERNAL, "out of memory");
   driver->run = run;
+  driver->values = values;
   driver->step = step_of(values);
   gamut_status status = path_read(run, values, &driver->path);
   if (status == GAMUT_OK)
@@ -246,9 +247,10 @@ static gamut_status restore(void *self, const void *bytes, size_t size)
                       "the state of the driver in the checkpoint does not fit this solver");
   memcpy(&step, from, sizeof step);
   if (step != driver->step)
-    return gamut_fail(driver->run, GAMUT_SCENE,
-                      "the step was %g s and is %g s: with `steps` another end is another step",
-                      step, driver->step);
+    return gamut_fail_at(driver->run, driver->values, "steps",
+                         "the end that the checkpoint was written with",
+                         "the step was %g s and is %g s: with `steps` another end is another step",
+                         step, driver->step);
   for (size_t i = 0; i < driver->points; i++) {
     struct point *p = &driver->point[i];
     struct saved_point saved;

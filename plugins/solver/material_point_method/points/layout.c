@@ -39,11 +39,13 @@ static bool lattice_next(const struct body *b, long at[3])
 }
 
 static gamut_status check_place(const struct model *m, const struct gamut_values *values,
-                                const char *name, const double lower[3], const double upper[3])
+                                const struct body *b, const double lower[3], const double upper[3])
 {
+  const char *name = m->host->body_name(b->scene);
   for (unsigned k = 0; k < m->dimension; k++) {
     if (!isfinite(lower[k]) || !isfinite(upper[k]))
-      return gamut_fail(m->run, GAMUT_SCENE, "body '%s' has no end along %c", name, "xyz"[k]);
+      return gamut_fail_at(m->run, m->host->body_values(b->scene), "shape", "a shape with ends",
+                           "body '%s' has no end along %c", name, "xyz"[k]);
     if (upper[k] - lower[k] < m->cell * (1.0 - 1e-9))
       return gamut_fail_at(m->run, values, "cell", "a cell no larger than any body",
                            "the cell (%g m) is larger than body '%s' along %c (%g m)", m->cell,
@@ -111,7 +113,8 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
   double lower[3], upper[3];
   int along = 2;
   if (!m->host->body_bounds(b->scene, lower, upper))
-    return gamut_fail(m->run, GAMUT_SCENE, "body '%s' has no shape to lay points in", name);
+    return gamut_fail_at(m->run, own, "shape", "a shape",
+                         "body '%s' has no shape to lay points in", name);
   if (own != NULL && gamut_given(own, "points_per_cell")) {
     along = root(gamut_integer(own, "points_per_cell"), m->dimension);
     if (along == 0)
@@ -123,7 +126,7 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
   }
   if (m->geometry == GEOMETRY_AXISYMMETRIC)
     lower[0] = fmax(lower[0], 0.0); /* a shape around the axis: its half */
-  gamut_status status = check_place(m, values, name, lower, upper);
+  gamut_status status = check_place(m, values, b, lower, upper);
   if (status != GAMUT_OK)
     return status;
   const double *place, *volume;
