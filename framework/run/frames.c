@@ -221,6 +221,9 @@ static gamut_status fill_frame(struct gamut_run *run, struct frame *frame)
                                            .components = column->components,
                                            .data = data};
   }
+  for (size_t i = 0; i < frame->pieces; i++)
+    if (!frame->memory[i])
+      return GAMUT_INTERNAL;
   return GAMUT_OK;
 }
 

@@ -3,9 +3,9 @@
     python3 tests/bench/side_by_side.py OTHER/build/gamut build/gamut
         [--pairs N] [--shapes linear,quadratic] [--instructions]
 
-Times by runs in turn on one processor (the first of each pair changes), so that a machine that others
-use disturbs both alike: the median of the ratios of N pairs (40) is what counts, the spread stands
-beside it. Instructions by valgrind, of a shorter run, where the machine does not matter at all.
+Times by runs in turn on one processor (the first of each pair changes), so that a machine that
+others use disturbs both alike: the median of the ratios of N pairs (40) is what counts, the spread
+stands beside it. Instructions by valgrind, of a shorter run, where the machine does not matter at all.
 Work counts of both builds are compared. Prints Markdown.
 """
 import argparse

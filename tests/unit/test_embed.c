@@ -47,8 +47,8 @@ static void test_study(void)
   struct gamut_session *session = gamut_session_new(folder);
   const char *set[] = {"uncertainty.estimator.runs=5"};
   const struct gamut_run_request request = {.set = set, .sets = 1, .threads = TEAM};
-  tap_ok(gamut_run_scene(session, file, &request, &summary) == GAMUT_OK, "a study runs%s",
-         gamut_messages(session));
+  const gamut_status ran = gamut_run_scene(session, file, &request, &summary);
+  tap_ok(ran == GAMUT_OK, "a study runs%s", gamut_messages(session));
   tap_ok(summary && strstr(summary, "\"mean_error\"") && strstr(summary, "\"asked\": 5"),
          "its summary has moments of five runs");
   tap_ok(gamut_check_scene(session, file, &request) == GAMUT_OK, "it is checked");
