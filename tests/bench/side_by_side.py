@@ -5,8 +5,8 @@
 
 Times by runs in turn on one processor (the first of each pair changes), so that a machine that
 others use disturbs both alike: the median of the ratios of N pairs (40) is what counts, the spread
-stands beside it. Instructions by valgrind, of a shorter run, where the machine does not matter at all.
-Work counts of both builds are compared. Prints Markdown.
+stands beside it. Instructions by valgrind, of a shorter run, where the machine does not matter at
+all. Work counts of both builds are compared. Prints Markdown.
 """
 import argparse
 import os
