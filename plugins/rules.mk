@@ -18,7 +18,7 @@ all_objects = $(foreach plugin,$(gamut_plugins),\
   $(call objects,$(plugin),) $(foreach suffix,$(suffixes),$(call objects,$(plugin),$(suffix))))
 
 plugin_compile = $(CC) -I$(srcdir)/framework/include -std=gnu11 $(PLUGIN_OPTIMISE_FLAGS) \
-  $(PLUGIN_MATH_FLAGS) $(WARNING_FLAGS) -fPIC -fvisibility=hidden $(SANITIZER_FLAGS)
+  $(PLUGIN_MATH_FLAGS) $(WARNING_FLAGS) -Werror=switch -fPIC -fvisibility=hidden $(SANITIZER_FLAGS)
 plugin_link = $(CC) -shared $(PLUGIN_LINK_FLAGS) $(SANITIZER_FLAGS)
 
 # Solvers thread; everything else only vectorises.

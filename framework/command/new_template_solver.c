@@ -19,7 +19,6 @@ static const char descriptor[] =
     "  mean_position_x: {unit: m, at: run, doc: mean x of all points}\n";
 
 static const char source[] =
-    "#include <string.h>\n"
     "\n"
     "#include \"@NAME@.gamut.h\"\n"
     "\n"
@@ -166,12 +165,14 @@ static const char source_rest[] =
     "  const struct state *s = self;\n"
     "  (void)body;\n"
     "  (void)arguments;\n"
-    "  if (strcmp(name, \"mean_position_x\") != 0)\n"
-    "    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */\n"
-    "  *value = 0;\n"
-    "  for (size_t i = 0; i < gamut_bodies(s->run); i++)\n"
-    "    *value += array(s, i, s->position, 0)[0] / (double)gamut_bodies(s->run);\n"
-    "  return GAMUT_OK;\n"
+    "  switch (@NAME@_measure_of(name)) {\n"
+    "  case @UPPER@_MEASURE_MEAN_POSITION_X:\n"
+    "    *value = 0;\n"
+    "    for (size_t i = 0; i < gamut_bodies(s->run); i++)\n"
+    "      *value += array(s, i, s->position, 0)[0] / (double)gamut_bodies(s->run);\n"
+    "    return GAMUT_OK;\n"
+    "  }\n"
+    "  return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */\n"
     "}\n"
     "\n"
     "GAMUT_SOLVER(@NAME@, .create = create, .destroy = destroy, .start = start, .next = next,\n"

@@ -186,6 +186,9 @@ const char *kind_operation(enum gamut_kind, size_t index);
 const struct parameter *parameter_named(const struct parameter *, size_t count, const char *name);
 /* Index of a parameter of the descriptor, or -1. */
 int descriptor_parameter(const struct descriptor *, const char *name);
+/* A kind of space, which a solver offers as a choice of its parameter `geometry`; null: unknown. */
+struct geometry { const char *name; unsigned axes; bool axisymmetric; };
+const struct geometry *geometry_named(const char *name);
 /* Whether `provides` lists it. */
 bool descriptor_provides(const struct descriptor *, const char *name);
 
@@ -215,11 +218,12 @@ struct slot {
 size_t descriptor_layout(const struct descriptor *, struct slot **slots);
 
 /* Digest of kind, id, the ordered names, units and components of the layout, and the ordered names
- * of choices, messages and kernels (FNV-1a, 64 bits): 16 hex digits. Not of the prose, nor of
- * defaults. Computed by descriptor_read. */
+ * of choices (in groups and in arguments of measures too), measures, messages and kernels (FNV-1a,
+ * 64 bits): 16 hex digits. Not of the prose, nor of defaults. Computed by descriptor_read. */
 
-/* Writes NAME.gamut.h: the struct with a comment a member, constants of choices and messages,
- * number of scratch arrays, digest, struct NAME_ops (kind operations, then the kernels of variants,
+/* Writes NAME.gamut.h: the struct with a comment a member, an enum of each choice and of the
+ * measures with the function that gives it, constants of messages, number of scratch arrays,
+ * digest, struct NAME_ops (kind operations, then the kernels of variants,
  * then those of tasks, in declared order). */
 void descriptor_header(const struct descriptor *, FILE *);
 /* For people: `gamut show`. */

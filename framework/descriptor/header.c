@@ -91,21 +91,6 @@ static void put_member(FILE *file, const struct descriptor *d, const struct slot
   fputs(" */\n", file);
 }
 
-static void put_choices(FILE *file, const struct descriptor *d, const struct parameter *parameter,
-                        size_t count)
-{
-  for (size_t i = 0; i < count; i++)
-    for (size_t k = 0; parameter[i].type == VALUE_CHOICE && k < parameter[i].choices; k++) {
-      fputs("#define ", file);
-      put_upper(file, d->name);
-      fputc('_', file);
-      put_upper(file, parameter[i].name);
-      fputc('_', file);
-      put_upper(file, parameter[i].choice[k]);
-      fprintf(file, " %zu\n", k);
-    }
-}
-
 static void put_constants(FILE *file, const struct descriptor *d)
 {
   static const char *const severity[] = {"GAMUT_FINE", "GAMUT_NOTE", "GAMUT_WARN", "GAMUT_STOP"};
@@ -113,14 +98,89 @@ static void put_constants(FILE *file, const struct descriptor *d)
   fputs("#define ", file);
   put_upper(file, d->name);
   fprintf(file, "_SCRATCH %zu\n", d->scratch);
-  put_choices(file, d, d->parameter, d->parameters);
-  put_choices(file, d, d->material_parameter, d->material_parameters);
   for (size_t i = 0; i < d->messages; i++) {
     fputs("#define ", file);
     put_upper(file, d->name);
     fputc('_', file);
     put_upper(file, d->message[i].name);
     fprintf(file, " GAMUT_MESSAGE(%s, %zu)\n", severity[d->message[i].severity], i);
+  }
+}
+
+/* Where a parameter stands: below what, and the path by which values are asked for it. */
+struct stand {
+  const char *prefix, *path; /* of names in C, "diameter_"; of values, "transfer." */
+};
+
+static void put_choice(FILE *file, const struct descriptor *d, const struct stand *stand,
+                       const struct parameter *p)
+{
+  fputs("\n#define ", file);
+  put_upper(file, d->name);
+  fputc('_', file);
+  put_upper(file, stand->prefix);
+  put_upper(file, p->name);
+  fprintf(file, "_CHOICES %zu\nenum %s_%s%s {\n", p->choices, d->name, stand->prefix, p->name);
+  for (size_t k = 0; k < p->choices; k++) {
+    const char *part[] = {d->name, "_", stand->prefix, p->name, "_", p->choice[k]};
+    fputs("  ", file);
+    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++)
+      put_upper(file, part[i]);
+    fputs(k + 1 < p->choices ? ",\n" : "\n", file);
+  }
+  fprintf(file,
+          "};\nstatic inline enum %s_%s%s\n%s_%s%s_of(const struct gamut_values *values)\n{\n"
+          "  return (enum %s_%s%s)gamut_choice(values, \"%s%s\");\n}\n",
+          d->name, stand->prefix, p->name, d->name, stand->prefix, p->name, d->name, stand->prefix,
+          p->name, stand->path, p->name);
+}
+
+/* An enum of each choice and what turns the scene's values into it, so that a `switch` without a
+ * `default` lets the compiler find a choice that the code does not know. */
+static void put_choices(FILE *file, const struct descriptor *d, const struct stand *stand,
+                        const struct parameter *parameter, size_t count)
+{
+  for (size_t i = 0; i < count; i++) {
+    const struct parameter *p = &parameter[i];
+    char prefix[256], path[256];
+    if (p->type == VALUE_CHOICE)
+      put_choice(file, d, stand, p);
+    if (p->type != VALUE_GROUP)
+      continue;
+    snprintf(prefix, sizeof prefix, "%s%s_", stand->prefix, p->name);
+    snprintf(path, sizeof path, "%s%s.", stand->path, p->name);
+    put_choices(file, d, &(struct stand){prefix, path}, p->member, p->members);
+  }
+}
+
+static void put_measures(FILE *file, const struct descriptor *d)
+{
+  char prefix[256];
+  if (d->measures == 0)
+    return;
+  fprintf(file, "\nenum %s_measure {\n", d->name);
+  for (size_t i = 0; i < d->measures; i++) {
+    fputs("  ", file);
+    put_upper(file, d->name);
+    fputs("_MEASURE_", file);
+    put_upper(file, d->measure[i].name);
+    fputs(i + 1 < d->measures ? ",\n" : "\n", file);
+  }
+  fprintf(file,
+          "};\n/* Of a name that is none of them: a number that is none of these. */\n"
+          "static inline enum %s_measure %s_measure_of(const char *name)\n{\n"
+          "  static const char *const names[] = {",
+          d->name, d->name);
+  for (size_t i = 0; i < d->measures; i++)
+    fprintf(file, "%s\n      \"%s\"", i ? "," : "", d->measure[i].name);
+  fprintf(file,
+          "};\n  unsigned k = 0;\n  while (k < %zu && strcmp(name, names[k]) != 0)\n    k++;\n"
+          "  return (enum %s_measure)k;\n}\n",
+          d->measures, d->name);
+  for (size_t i = 0; i < d->measures; i++) {
+    snprintf(prefix, sizeof prefix, "%s_", d->measure[i].name);
+    put_choices(file, d, &(struct stand){prefix, ""}, d->measure[i].argument,
+                d->measure[i].arguments);
   }
 }
 
@@ -173,8 +233,16 @@ void descriptor_header(const struct descriptor *d, FILE *file)
   put_upper(file, d->name);
   fputs("_GAMUT_H\n#define ", file);
   put_upper(file, d->name);
-  fputs("_GAMUT_H\n\n#include <gamut/plugin.h>\n\n", file);
+  fputs("_GAMUT_H\n\n", file);
+  if (d->measures)
+    fputs("#include <string.h>\n\n", file);
+  fputs("#include <gamut/plugin.h>\n\n", file);
   put_constants(file, d);
+  const struct stand top = {"", ""};
+  put_choices(file, d, &top, d->parameter, d->parameters);
+  put_choices(file, d, &top, d->material_parameter, d->material_parameters);
+  put_choices(file, d, &top, d->body_parameter, d->body_parameters);
+  put_measures(file, d);
   put_block(file, d);
   put_operations(file, d);
   fputs("\n#endif\n", file);

@@ -163,9 +163,15 @@ static uint64_t digest_number(uint64_t digest, size_t number)
 
 static uint64_t digest_choices(uint64_t digest, const struct parameter *parameter, size_t count)
 {
-  for (size_t i = 0; i < count; i++)
+  for (size_t i = 0; i < count; i++) {
+    if (parameter[i].type == VALUE_CHOICE)
+      digest = digest_text(digest, parameter[i].name);
     for (size_t k = 0; parameter[i].type == VALUE_CHOICE && k < parameter[i].choices; k++)
       digest = digest_text(digest, parameter[i].choice[k]);
+    if (parameter[i].type == VALUE_GROUP)
+      digest = digest_choices(digest_text(digest, parameter[i].name), parameter[i].member,
+                              parameter[i].members);
+  }
   return digest;
 }
 
@@ -182,6 +188,10 @@ void descriptor_seal(struct descriptor *d)
   free(slots);
   digest = digest_choices(digest, d->parameter, d->parameters);
   digest = digest_choices(digest, d->material_parameter, d->material_parameters);
+  digest = digest_choices(digest, d->body_parameter, d->body_parameters);
+  for (size_t i = 0; i < d->measures; i++)
+    digest = digest_choices(digest_text(digest, d->measure[i].name), d->measure[i].argument,
+                            d->measure[i].arguments);
   for (size_t i = 0; i < d->messages; i++)
     digest = digest_number(digest_text(digest, d->message[i].name), d->message[i].severity);
   for (size_t i = 0; i < d->variants; i++)

@@ -212,6 +212,7 @@ static void read_all(struct reader *reader, const struct tree *root, const char 
   read_services(reader, root);
   check_outputs(reader, root);
   check_layout(reader, root);
+  check_geometry(reader, root);
 }
 
 gamut_status descriptor_read(const char *file, const struct units *units, struct trace *trace,

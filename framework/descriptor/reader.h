@@ -75,6 +75,7 @@ bool range_within(const struct range *inner, const struct range *outer);
 
 /* Faults of the struct that would be generated: names that C has, names that stand twice. */
 void check_layout(struct reader *, const struct tree *root);
+void check_geometry(struct reader *, const struct tree *root);
 void descriptor_seal(struct descriptor *); /* computes the digest */
 
 const char *value_type_name(enum value_type);

@@ -187,10 +187,8 @@ struct frame {
 
 static int axes_of(const struct scene *scene)
 {
-  const struct value *geometry = values_find(scene->solver.values, "geometry");
-  if (!geometry || !geometry->text)
-    return 3;
-  return strcmp(geometry->text, "1d") == 0 ? 1 : strcmp(geometry->text, "3d") == 0 ? 3 : 2;
+  const struct geometry *geometry = values_geometry(scene->solver.values);
+  return geometry ? (int)geometry->axes : 3;
 }
 
 static gamut_status fill_frame(struct gamut_run *run, struct frame *frame)

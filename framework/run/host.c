@@ -137,7 +137,7 @@ static double host_body_density(const struct gamut_run *run, const struct gamut_
 static const char *host_body_strength(const struct gamut_run *run, const struct gamut_body *body)
 {
   const struct descriptor *d = run->scene->material[body->material].strength.descriptor;
-  return d ? d->name : NULL;
+  return d && d->needs ? d->name : NULL; /* needs of its caller are how a law acts */
 }
 
 static gamut_status host_points(struct gamut_run *run, const struct gamut_body *body, size_t points,

@@ -34,9 +34,8 @@ uint64_t host_realisation(const struct gamut_run *run)
 
 bool host_domain(const struct gamut_run *run, double lower[3], double upper[3])
 {
-  const struct value *geometry = values_find(run->scene->solver.values, "geometry");
-  const char *name = geometry && geometry->text ? geometry->text : "3d";
-  int axes = strcmp(name, "1d") == 0 ? 1 : strcmp(name, "3d") == 0 ? 3 : 2;
+  const struct geometry *geometry = values_geometry(run->scene->solver.values);
+  const int axes = geometry ? (int)geometry->axes : 3;
   bool any = false;
   for (int k = 0; k < 3; k++)
     lower[k] = upper[k] = 0.0;
@@ -44,7 +43,7 @@ bool host_domain(const struct gamut_run *run, double lower[3], double upper[3])
     double low[3], high[3];
     if (!run_host.body_bounds(&run->scene->body[b], low, high))
       continue;
-    if (strcmp(name, "axisymmetric") == 0)
+    if (geometry && geometry->axisymmetric)
       low[0] = fmax(low[0], 0.0);
     for (int k = 0; k < axes; k++) {
       bool finite = isfinite(low[k]) && isfinite(high[k]);

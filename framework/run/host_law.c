@@ -30,10 +30,14 @@ gamut_status host_law(struct gamut_run *run, const struct gamut_body *body, cons
 {
   gamut_status status;
   const struct material *material = &run->scene->material[body->material];
-  const struct instance *instance =
-      strcmp(kind, "strength") == 0 ? &material->strength : &material->eos;
-  struct gamut_law *law = calloc(1, sizeof *law);
+  const struct instance *instance = strcmp(kind, "strength") == 0 ? &material->strength
+                                    : strcmp(kind, "eos") == 0    ? &material->eos
+                                                                  : NULL;
   *out = NULL;
+  if (!instance)
+    return trace_fail(run->trace, GAMUT_PLUGIN, "%s asks for a law of the kind '%s'",
+                      run->scene->solver.descriptor->id, kind);
+  struct gamut_law *law = calloc(1, sizeof *law);
   if (!law)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   law->instance = instance;

@@ -40,7 +40,9 @@ double host_real(const struct gamut_values *values, const char *path)
 
 long host_integer(const struct gamut_values *values, const char *path)
 {
-  return (long)demand(values, path, 1u << VALUE_INTEGER)->real;
+  const struct value *value = demand(values, path, 1u << VALUE_INTEGER | 1u << VALUE_CHOICE);
+  const bool chosen = value->parameter->type != VALUE_CHOICE || value->text;
+  return chosen ? (long)value->real : -1;
 }
 
 bool host_boolean(const struct gamut_values *values, const char *path)

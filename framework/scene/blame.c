@@ -291,6 +291,23 @@ void expect_keys(struct reading *reading, const struct tree *node, const char *c
   }
 }
 
+/* A path `b.c` would mean both the member c of `b` and `b.c` itself. */
+static bool beside_its_first_part(struct reading *reading, const struct tree *node)
+{
+  char first[64], expected[192], path[PATH_SIZE];
+  for (const char *dot = strchr(node->key, '.'); dot; dot = strchr(dot + 1, '.')) {
+    snprintf(first, sizeof first, "%.*s", (int)(dot - node->key), node->key);
+    if (!tree_get(node->parent, first))
+      continue;
+    snprintf(expected, sizeof expected, "another name for one of them, such as '%s_%s'", first,
+             dot + 1);
+    blame_key(reading, node, expected, "'%s' beside '%s': '%s.%s' would mean two things", node->key,
+              first, tree_path(node->parent, path, sizeof path), node->key);
+    return true;
+  }
+  return false;
+}
+
 bool expect_name(struct reading *reading, const struct tree *node, const char *what)
 {
   bool fine = isalnum((unsigned char)node->key[0]) && strlen(node->key) < 64;
@@ -300,5 +317,5 @@ bool expect_name(struct reading *reading, const struct tree *node, const char *w
     blame_key(reading, node,
               "letters, digits, '_', '-' and '.', at most 63 of them, first a letter or digit",
               "'%s' cannot be the name of %s", node->key, what);
-  return fine;
+  return fine && !beside_its_first_part(reading, node);
 }

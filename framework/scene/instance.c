@@ -120,13 +120,6 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
   free(known);
 }
 
-static unsigned axes_of(const char *geometry)
-{
-  if (strcmp(geometry, "1d") == 0)
-    return 1;
-  return strcmp(geometry, "3d") == 0 ? 3 : 2;
-}
-
 /* The geometry counts the components of the solver's own vectors, so it is looked up before. */
 static void geometry_peek(struct reading *reading, const struct tree *node)
 {
@@ -141,8 +134,11 @@ static void geometry_peek(struct reading *reading, const struct tree *node)
     given = parameter->standard;
   if (!given || !has_name(parameter->choice, parameter->choices, given->text))
     return;
-  reading->axes = axes_of(given->text);
-  reading->axisymmetric = strcmp(given->text, "axisymmetric") == 0;
+  const struct geometry *geometry = geometry_named(given->text);
+  if (!geometry) /* a descriptor that offers it was refused */
+    return;
+  reading->axes = geometry->axes;
+  reading->axisymmetric = geometry->axisymmetric;
 }
 
 bool is_card(const struct tree *root)

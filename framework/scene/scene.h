@@ -75,6 +75,8 @@ struct gamut_values {
 
 /* By dotted path; null if not declared. */
 const struct value *values_find(const struct values *, const char *path);
+/* The kind of space of these values of a solver; null where it has no such parameter. */
+const struct geometry *values_geometry(const struct values *);
 
 struct instance {   /* a plugin named by the scene with its values */
   const char *name; /* effects: their key; others: kind */

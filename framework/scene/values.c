@@ -323,3 +323,9 @@ const struct value *values_find(const struct values *values, const char *path)
   }
   return NULL;
 }
+
+const struct geometry *values_geometry(const struct values *values)
+{
+  const struct value *value = values_find(values, "geometry");
+  return value && value->text ? geometry_named(value->text) : NULL;
+}

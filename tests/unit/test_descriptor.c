@@ -137,7 +137,8 @@ static void test_header(const struct descriptor *d)
   static const char *const lines[] = {
       "#ifndef SAMPLE_GAMUT_H\n",
       "#define SAMPLE_SCRATCH 24\n",
-      "#define SAMPLE_MODE_EXACT 1\n",
+      "enum sample_mode {\n  SAMPLE_MODE_FAST,\n  SAMPLE_MODE_EXACT\n};\n",
+      "return (enum sample_mode)gamut_choice(values, \"mode\");\n",
       "#define SAMPLE_GONE GAMUT_MESSAGE(GAMUT_STOP, 1)\n",
       "  const double *A; ",
       "  const double *velocity_gradient[9]; ",

@@ -197,6 +197,7 @@ struct gamut_host {
    * that type; asking for another is a fault of the plugin and ends the program. Borrowed. */
   bool (*given)(const struct gamut_values *, const char *path); /* in the scene, not by default */
   double (*real)(const struct gamut_values *, const char *path);
+  /* Also of a choice: its number in the descriptor, -1 where there is none. */
   long (*integer)(const struct gamut_values *, const char *path);
   bool (*boolean)(const struct gamut_values *, const char *path);
   const char *(*text)(const struct gamut_values *, const char *path); /* text, choice, body */
@@ -357,6 +358,14 @@ static inline long gamut_integer(const struct gamut_values *v, const char *path)
 {
   return GAMUT_HOST(v)->integer(v, path);
 }
+/* Number of a choice; code takes the functions of NAME.gamut.h, which make it an enum. */
+static inline int gamut_choice(const struct gamut_values *v, const char *path)
+{
+  return (int)GAMUT_HOST(v)->integer(v, path);
+}
+/* Of the generated enum ID of a choice among x, y, z: its numbers are those of axes. */
+#define GAMUT_CHOICE_IS_AXIS(ID)                                                                   \
+  _Static_assert(ID##_X == 0 && ID##_Y == 1 && ID##_Z == 2 && ID##_CHOICES == 3, "x, y, z")
 static inline bool gamut_boolean(const struct gamut_values *v, const char *path)
 {
   return GAMUT_HOST(v)->boolean(v, path);

@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "boundary.gamut.h"
 
 struct boundary_effect {
@@ -60,40 +58,50 @@ static gamut_status add_traction(struct gamut_run *run, const struct gamut_value
   return gamut_add_task(run, &task);
 }
 
+static gamut_status add_plane(struct boundary_effect *b, enum gamut_plane_rule rule)
+{
+  b->plane.normal_rule = b->plane.tangential_rule = rule;
+  return GAMUT_HOST(b->run)->plane(b->run, &b->plane, &b->reaction);
+}
+
+static gamut_status add_kind(struct gamut_run *run, const struct gamut_values *values,
+                             struct boundary_effect *b)
+{
+  switch (boundary_kind_of(values)) {
+  case BOUNDARY_KIND_FIXED:
+    return add_plane(b, GAMUT_PLANE_PRESCRIBED);
+  case BOUNDARY_KIND_SYMMETRY:
+    return add_plane(b, GAMUT_PLANE_MIRROR);
+  case BOUNDARY_KIND_VELOCITY:
+    if (!gamut_given(values, "velocity"))
+      return gamut_fail_at(run, values, "velocity", "velocity: [..]", "it is missing");
+    gamut_space_vector(values, "velocity", b->plane.velocity);
+    return add_plane(b, GAMUT_PLANE_PRESCRIBED);
+  case BOUNDARY_KIND_TRACTION:
+    return add_traction(run, values, b);
+  }
+  return gamut_fail(run, GAMUT_PLUGIN, "boundary does not know this kind");
+}
+
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
-  const char *kind = gamut_text(values, "kind");
-  const bool symmetry = strcmp(kind, "symmetry") == 0, moves = strcmp(kind, "velocity") == 0;
-  const bool traction = strcmp(kind, "traction") == 0;
-  if (!symmetry && !moves && !traction && strcmp(kind, "fixed") != 0)
-    return gamut_fail(run, GAMUT_PLUGIN, "boundary does not know the kind '%s'", kind);
   struct boundary_effect *b = gamut_allocate(run, "boundary", sizeof *b);
   if (b == NULL)
     return GAMUT_INTERNAL;
   b->run = run;
-  b->plane.normal_rule = symmetry ? GAMUT_PLANE_MIRROR : GAMUT_PLANE_PRESCRIBED;
-  b->plane.tangential_rule = symmetry ? GAMUT_PLANE_MIRROR : GAMUT_PLANE_PRESCRIBED;
   gamut_status status = gamut_read_plane(run, values, "a direction towards the matter",
                                          b->plane.point, b->plane.normal);
-  if (status != GAMUT_OK) {
-    gamut_release(run, b);
-    return status;
-  }
-  if (traction) {
-    status = add_traction(run, values, b);
-  } else if (moves && !gamut_given(values, "velocity")) {
-    status = gamut_fail_at(run, values, "velocity", "velocity: [..]", "it is missing");
-  } else {
-    if (moves)
-      gamut_space_vector(values, "velocity", b->plane.velocity);
-    status = GAMUT_HOST(run)->plane(run, &b->plane, &b->reaction);
-  }
+  if (status == GAMUT_OK)
+    status = add_kind(run, values, b);
   if (status != GAMUT_OK)
     gamut_release(run, b);
   else
     *self = b;
   return status;
 }
+
+GAMUT_CHOICE_IS_AXIS(BOUNDARY_FORCE_AXIS);
+GAMUT_CHOICE_IS_AXIS(BOUNDARY_IMPULSE_AXIS);
 
 static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
                             const struct gamut_values *arguments, double *value)
@@ -103,22 +111,26 @@ static gamut_status measure(void *self, const char *name, const struct gamut_bod
   const struct gamut_reaction *r = b->reaction;
   if (r == NULL)
     return gamut_fail(b->run, GAMUT_SCENE, "a traction has no reaction: its force is stated");
-  if (strcmp(name, "normal_force") == 0) {
+  switch (boundary_measure_of(name)) {
+  case BOUNDARY_MEASURE_NORMAL_FORCE:
     *value = 0.0;
     for (int k = 0; k < 3; k++)
       *value -= r->force[k] * b->plane.normal[k];
-  } else if (strcmp(name, "contact_area") == 0) {
+    return GAMUT_OK;
+  case BOUNDARY_MEASURE_CONTACT_AREA:
     *value = r->area;
-  } else if (strcmp(name, "work") == 0) {
+    return GAMUT_OK;
+  case BOUNDARY_MEASURE_WORK:
     *value = r->work;
-  } else if (strcmp(name, "force") == 0) {
-    *value = r->force[gamut_text(arguments, "axis")[0] - 'x'];
-  } else if (strcmp(name, "impulse") == 0) {
-    *value = r->impulse[gamut_text(arguments, "axis")[0] - 'x'];
-  } else {
-    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
+    return GAMUT_OK;
+  case BOUNDARY_MEASURE_FORCE:
+    *value = r->force[boundary_force_axis_of(arguments)];
+    return GAMUT_OK;
+  case BOUNDARY_MEASURE_IMPULSE:
+    *value = r->impulse[boundary_impulse_axis_of(arguments)];
+    return GAMUT_OK;
   }
-  return GAMUT_OK;
+  return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
 }
 
 GAMUT_EFFECT(boundary, .create = create, .measure = measure)

@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "erosion.gamut.h"
 
 struct erosion_effect {
@@ -117,15 +115,18 @@ static gamut_status measure(void *self, const char *name, const struct gamut_bod
   (void)body;
   (void)arguments;
   const struct erosion_effect *e = self;
-  if (strcmp(name, "eroded_mass") == 0)
+  switch (erosion_measure_of(name)) {
+  case EROSION_MEASURE_ERODED_MASS:
     *value = e->gone->mass;
-  else if (strcmp(name, "eroded_energy") == 0)
+    return GAMUT_OK;
+  case EROSION_MEASURE_ERODED_ENERGY:
     *value = e->gone->kinetic + e->gone->internal;
-  else if (strcmp(name, "eroded_points") == 0)
+    return GAMUT_OK;
+  case EROSION_MEASURE_ERODED_POINTS:
     *value = e->gone->points;
-  else
-    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
-  return GAMUT_OK;
+    return GAMUT_OK;
+  }
+  return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
 }
 
 GAMUT_EFFECT(erosion, .create = create, .measure = measure)

@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "outflow.gamut.h"
 
 struct outflow_effect {
@@ -69,23 +67,29 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   return status;
 }
 
+GAMUT_CHOICE_IS_AXIS(OUTFLOW_LEFT_MOMENTUM_AXIS);
+
 static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
                             const struct gamut_values *arguments, double *value)
 {
   (void)body;
   const struct outflow_effect *e = self;
   const struct gamut_removed *left = e->left;
-  if (strcmp(name, "left_mass") == 0)
+  switch (outflow_measure_of(name)) {
+  case OUTFLOW_MEASURE_LEFT_MASS:
     *value = left->mass;
-  else if (strcmp(name, "left_momentum") == 0)
-    *value = left->momentum[gamut_text(arguments, "axis")[0] - 'x'];
-  else if (strcmp(name, "left_energy") == 0)
+    return GAMUT_OK;
+  case OUTFLOW_MEASURE_LEFT_MOMENTUM:
+    *value = left->momentum[outflow_left_momentum_axis_of(arguments)];
+    return GAMUT_OK;
+  case OUTFLOW_MEASURE_LEFT_ENERGY:
     *value = left->kinetic + left->internal;
-  else if (strcmp(name, "left_points") == 0)
+    return GAMUT_OK;
+  case OUTFLOW_MEASURE_LEFT_POINTS:
     *value = left->points;
-  else
-    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
-  return GAMUT_OK;
+    return GAMUT_OK;
+  }
+  return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
 }
 
 GAMUT_EFFECT(outflow, .create = create, .measure = measure)

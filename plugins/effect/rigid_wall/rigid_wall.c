@@ -30,28 +30,35 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   return status;
 }
 
+GAMUT_CHOICE_IS_AXIS(RIGID_WALL_FORCE_AXIS);
+GAMUT_CHOICE_IS_AXIS(RIGID_WALL_IMPULSE_AXIS);
+
 static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
                             const struct gamut_values *arguments, double *value)
 {
   (void)body;
   const struct wall *wall = self;
   const struct gamut_reaction *r = wall->reaction;
-  if (strcmp(name, "normal_force") == 0) {
+  switch (rigid_wall_measure_of(name)) {
+  case RIGID_WALL_MEASURE_NORMAL_FORCE:
     *value = 0.0;
     for (int k = 0; k < 3; k++)
       *value -= r->force[k] * wall->normal[k];
-  } else if (strcmp(name, "contact_area") == 0) {
+    return GAMUT_OK;
+  case RIGID_WALL_MEASURE_CONTACT_AREA:
     *value = r->area;
-  } else if (strcmp(name, "work") == 0) {
+    return GAMUT_OK;
+  case RIGID_WALL_MEASURE_WORK:
     *value = r->work;
-  } else if (strcmp(name, "force") == 0) {
-    *value = r->force[gamut_text(arguments, "axis")[0] - 'x'];
-  } else if (strcmp(name, "impulse") == 0) {
-    *value = r->impulse[gamut_text(arguments, "axis")[0] - 'x'];
-  } else {
-    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
+    return GAMUT_OK;
+  case RIGID_WALL_MEASURE_FORCE:
+    *value = r->force[rigid_wall_force_axis_of(arguments)];
+    return GAMUT_OK;
+  case RIGID_WALL_MEASURE_IMPULSE:
+    *value = r->impulse[rigid_wall_impulse_axis_of(arguments)];
+    return GAMUT_OK;
   }
-  return GAMUT_OK;
+  return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
 }
 
 GAMUT_EFFECT(rigid_wall, .create = create, .measure = measure)

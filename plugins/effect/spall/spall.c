@@ -1,5 +1,3 @@
-#include <string.h>
-
 #include "spall.gamut.h"
 
 struct spall_effect {
@@ -71,19 +69,30 @@ static gamut_status add_task(struct gamut_run *run, struct spall_effect *effect)
   return gamut_add_task(run, &task);
 }
 
+static gamut_status read_mode(struct gamut_run *run, const struct gamut_values *values,
+                              double *tears)
+{
+  switch (spall_mode_of(values)) {
+  case SPALL_MODE_TEAR:
+    *tears = 1.0;
+    return GAMUT_OK;
+  case SPALL_MODE_CUTOFF:
+    *tears = 0.0;
+    return GAMUT_OK;
+  }
+  return gamut_fail(run, GAMUT_PLUGIN, "spall does not know this mode");
+}
+
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
-  const char *mode = gamut_text(values, "mode");
-  const bool tears = strcmp(mode, "tear") == 0;
-  if (!tears && strcmp(mode, "cutoff") != 0)
-    return gamut_fail(run, GAMUT_PLUGIN, "spall does not know the mode '%s'", mode);
   struct spall_effect *effect = gamut_allocate(run, "spall", sizeof *effect);
   if (!effect)
     return GAMUT_INTERNAL;
   effect->run = run;
   effect->limit = gamut_real(values, "limit");
-  effect->tears = tears ? 1.0 : 0.0;
-  const gamut_status status = add_task(run, effect);
+  gamut_status status = read_mode(run, values, &effect->tears);
+  if (status == GAMUT_OK)
+    status = add_task(run, effect);
   if (status != GAMUT_OK)
     gamut_release(run, effect);
   else

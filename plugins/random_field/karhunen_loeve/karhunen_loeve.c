@@ -1,15 +1,12 @@
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "expansion.h"
 #include "karhunen_loeve.gamut.h"
 
-enum origin { FROM_KERNEL, FROM_SAMPLES, FROM_TABLE };
-
 struct field {
   struct gamut_run *run;
-  enum origin origin;
+  enum karhunen_loeve_from origin;
   struct expansion expansion;
   double lower[AXES], upper[AXES];
   struct noise noise; /* distribution of the values */
@@ -17,15 +14,6 @@ struct field {
   struct table table;
   atomic_flag told; /* what a user must know is said once */
 };
-
-/* The number of a choice, in the order of the descriptor. */
-static int number_of(const char *text, const char *const *name, int count)
-{
-  int k = 0;
-  while (k < count - 1 && strcmp(name[k], text) != 0)
-    k++;
-  return k;
-}
 
 static gamut_status read_domain(struct field *field, const struct gamut_values *values)
 {
@@ -121,14 +109,37 @@ static gamut_status report_modes(const struct field *field, const struct gamut_v
   return GAMUT_OK;
 }
 
+static gamut_status read_covariance(const struct field *field, const struct gamut_values *values,
+                                    enum covariance *covariance)
+{
+  switch (karhunen_loeve_kernel_of(values)) {
+  case KARHUNEN_LOEVE_KERNEL_EXPONENTIAL:
+    *covariance = EXPONENTIAL;
+    return GAMUT_OK;
+  case KARHUNEN_LOEVE_KERNEL_GAUSSIAN:
+    *covariance = GAUSSIAN;
+    return GAMUT_OK;
+  case KARHUNEN_LOEVE_KERNEL_MATERN_1_2:
+    *covariance = MATERN_1_2;
+    return GAMUT_OK;
+  case KARHUNEN_LOEVE_KERNEL_MATERN_3_2:
+    *covariance = MATERN_3_2;
+    return GAMUT_OK;
+  case KARHUNEN_LOEVE_KERNEL_MATERN_5_2:
+    *covariance = MATERN_5_2;
+    return GAMUT_OK;
+  }
+  return gamut_fail(field->run, GAMUT_PLUGIN, "karhunen_loeve does not know this kernel");
+}
+
 static gamut_status create_expansion(struct field *field, const struct gamut_values *values)
 {
-  static const char *const name[] = {"exponential", "gaussian", "matern_1_2", "matern_3_2",
-                                     "matern_5_2"};
-  enum covariance covariance = (enum covariance)number_of(gamut_text(values, "kernel"), name, 5);
+  enum covariance covariance = EXPONENTIAL;
   double length[AXES], energy = gamut_real(values, "energy");
   size_t most = (size_t)gamut_integer(values, "modes_max");
-  gamut_status status = read_domain(field, values);
+  gamut_status status = read_covariance(field, values, &covariance);
+  if (status == GAMUT_OK)
+    status = read_domain(field, values);
   if (status == GAMUT_OK)
     status = read_lengths(field, values, length);
   if (status == GAMUT_OK)
@@ -242,19 +253,43 @@ static void destroy(void *self)
   free(field);
 }
 
+static gamut_status create_origin(struct field *field, const struct gamut_values *values)
+{
+  switch (field->origin) {
+  case KARHUNEN_LOEVE_FROM_KERNEL:
+    return create_expansion(field, values);
+  case KARHUNEN_LOEVE_FROM_SAMPLES:
+    return create_ensemble(field, values);
+  case KARHUNEN_LOEVE_FROM_TABLE:
+    return create_table(field, values);
+  }
+  return gamut_fail(field->run, GAMUT_PLUGIN, "karhunen_loeve does not know this origin");
+}
+
+static gamut_status read_noise(struct field *field, const struct gamut_values *values)
+{
+  switch (karhunen_loeve_distribution_of(values)) {
+  case KARHUNEN_LOEVE_DISTRIBUTION_NORMAL:
+    field->noise = noise_read(values, false);
+    return GAMUT_OK;
+  case KARHUNEN_LOEVE_DISTRIBUTION_WEIBULL:
+    field->noise = noise_read(values, true);
+    return GAMUT_OK;
+  }
+  return gamut_fail(field->run, GAMUT_PLUGIN, "karhunen_loeve does not know this distribution");
+}
+
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
-  static const char *const origin[] = {"kernel", "samples", "table"};
   struct field *field = calloc(1, sizeof *field);
   *self = NULL;
   if (!field)
     return gamut_fail(run, GAMUT_INTERNAL, "out of memory");
   field->run = run;
-  field->noise = noise_read(values, gamut_text(values, "distribution")[0] == 'w');
-  field->origin = (enum origin)number_of(gamut_text(values, "from"), origin, 3);
-  gamut_status status = field->origin == FROM_KERNEL    ? create_expansion(field, values)
-                        : field->origin == FROM_SAMPLES ? create_ensemble(field, values)
-                                                        : create_table(field, values);
+  field->origin = karhunen_loeve_from_of(values);
+  gamut_status status = read_noise(field, values);
+  if (status == GAMUT_OK)
+    status = create_origin(field, values);
   if (status != GAMUT_OK)
     destroy(field);
   else
@@ -266,20 +301,24 @@ static gamut_status sample(const void *self, const struct gamut_stream *stream, 
                            const double *const position[3], const int64_t *id, double *value)
 {
   struct field *field = (struct field *)(size_t)self;
-  if (field->origin == FROM_KERNEL)
+  switch (field->origin) {
+  case KARHUNEN_LOEVE_FROM_KERNEL:
     return sample_expansion(field, stream, count, position, id, value);
-  if (field->origin == FROM_SAMPLES)
+  case KARHUNEN_LOEVE_FROM_SAMPLES:
     return sample_ensemble(field, stream, count, id, value);
-  for (size_t i = 0; i < count; i++)
-    value[i] =
-        table_at(&field->table, (const double[]){position[0][i], position[1][i], position[2][i]});
-  return GAMUT_OK;
+  case KARHUNEN_LOEVE_FROM_TABLE:
+    for (size_t i = 0; i < count; i++)
+      value[i] =
+          table_at(&field->table, (const double[]){position[0][i], position[1][i], position[2][i]});
+    return GAMUT_OK;
+  }
+  return GAMUT_PLUGIN;
 }
 
 static double below(const void *self, double value)
 {
   const struct field *field = self;
-  bool standard = field->origin == FROM_TABLE || noise_is_standard(&field->noise);
+  bool standard = field->origin == KARHUNEN_LOEVE_FROM_TABLE || noise_is_standard(&field->noise);
   return standard ? NAN : noise_below(&field->noise, value);
 }
 

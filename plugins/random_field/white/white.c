@@ -6,11 +6,21 @@
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
   struct noise *noise = malloc(sizeof *noise);
-  *self = noise;
+  *self = NULL;
   if (!noise)
     return gamut_fail(run, GAMUT_INTERNAL, "out of memory");
-  *noise = noise_read(values, gamut_text(values, "distribution")[0] == 'w');
-  return GAMUT_OK;
+  switch (white_distribution_of(values)) {
+  case WHITE_DISTRIBUTION_NORMAL:
+    *noise = noise_read(values, false);
+    *self = noise;
+    return GAMUT_OK;
+  case WHITE_DISTRIBUTION_WEIBULL:
+    *noise = noise_read(values, true);
+    *self = noise;
+    return GAMUT_OK;
+  }
+  free(noise);
+  return gamut_fail(run, GAMUT_PLUGIN, "white does not know this distribution");
 }
 
 static gamut_status sample(const void *self, const struct gamut_stream *stream, size_t count,

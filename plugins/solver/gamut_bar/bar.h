@@ -62,11 +62,10 @@ gamut_status families_commit(struct bar *, const double *internal);
 
 /* load.c: the path of the force. */
 
-enum load_kind { LOAD_MONOTONIC, LOAD_CYCLIC, LOAD_TABLE };
 enum { LEVELS_MAX = 64 };
 
 struct load {
-  enum load_kind kind;
+  enum gamut_bar_load kind;
   double reference, growth, strain_limit, stress_limit;
   long rung;                                              /* monotonic: of the step to come */
   long levels, cycles, increments, level, leg, increment; /* cyclic */

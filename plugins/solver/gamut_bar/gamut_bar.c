@@ -64,13 +64,17 @@ static gamut_status read_material(struct bar *bar)
 static size_t memory_depth(const struct bar *bar)
 {
   enum { SPARE = 4, MOST = 64 };
-  const char *kind = gamut_text(bar->values, "load");
   size_t rows, depth = SPARE;
   gamut_table(bar->values, "load_table", &rows);
-  if (strcmp(kind, "table") == 0)
+  if (gamut_bar_load_of(bar->values) == GAMUT_BAR_LOAD_TABLE)
     depth += rows;
-  if (strcmp(gamut_text(bar->values, "dynamics"), "off") != 0)
+  switch (gamut_bar_dynamics_of(bar->values)) {
+  case GAMUT_BAR_DYNAMICS_OFF:
+    break;
+  case GAMUT_BAR_DYNAMICS_BACKWARD_EULER:
     depth = MOST; /* a bar that comes to rest turns within itself */
+    break;
+  }
   return depth < MOST ? depth : MOST;
 }
 

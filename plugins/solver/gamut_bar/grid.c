@@ -1,6 +1,4 @@
 /* Lengths of the bonds, their midpoints, areas and volumes. */
-#include <string.h>
-
 #include "bar.h"
 
 /* A grid with a bond shorter than this share of the mean is thrown away. */
@@ -89,7 +87,13 @@ static gamut_status lay_out(struct bar *bar)
   }
   if (rows)
     return from_table(bar, row, rows, 5);
-  return strcmp(gamut_text(bar->values, "grid"), "random") == 0 ? random_grid(bar) : GAMUT_OK;
+  switch (gamut_bar_grid_of(bar->values)) {
+  case GAMUT_BAR_GRID_UNIFORM:
+    return GAMUT_OK;
+  case GAMUT_BAR_GRID_RANDOM:
+    return random_grid(bar);
+  }
+  return gamut_fail(bar->run, GAMUT_PLUGIN, "gamut_bar does not know this grid");
 }
 
 gamut_status grid_new(struct bar *bar)

@@ -10,7 +10,7 @@ gamut_status inertia_new(struct bar *bar)
 {
   static const double pi = 3.14159265358979323846;
   size_t n = bar->bonds;
-  bar->dynamic = strcmp(gamut_text(bar->values, "dynamics"), "backward_euler") == 0;
+  bar->dynamic = gamut_bar_dynamics_of(bar->values) == GAMUT_BAR_DYNAMICS_BACKWARD_EULER;
   if (!bar->dynamic)
     return GAMUT_OK;
   /* Eq. 34: two pi periods of the slowest mode. */

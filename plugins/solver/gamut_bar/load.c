@@ -1,6 +1,4 @@
 /* The path of the nominal stress. */
-#include <string.h>
-
 #include "bar.h"
 
 /* A law without a yield stress of its own yields at this plastic strain. */
@@ -80,10 +78,7 @@ static gamut_status cyclic(struct bar *bar)
 gamut_status load_new(struct bar *bar)
 {
   struct load *load = &bar->load;
-  const char *kind = gamut_text(bar->values, "load");
-  load->kind = strcmp(kind, "cyclic") == 0  ? LOAD_CYCLIC
-               : strcmp(kind, "table") == 0 ? LOAD_TABLE
-                                            : LOAD_MONOTONIC;
+  load->kind = gamut_bar_load_of(bar->values);
   load->growth = gamut_real(bar->values, "growth");
   load->levels = gamut_integer(bar->values, "levels");
   load->cycles = gamut_integer(bar->values, "cycles");
@@ -91,9 +86,15 @@ gamut_status load_new(struct bar *bar)
   gamut_status status = find_reference(bar);
   if (status != GAMUT_OK)
     return status;
-  if (load->kind == LOAD_CYCLIC)
+  switch (load->kind) {
+  case GAMUT_BAR_LOAD_MONOTONIC:
+    return monotonic(bar);
+  case GAMUT_BAR_LOAD_CYCLIC:
     return cyclic(bar);
-  return load->kind == LOAD_TABLE ? table(bar) : monotonic(bar);
+  case GAMUT_BAR_LOAD_TABLE:
+    return table(bar);
+  }
+  return gamut_fail(bar->run, GAMUT_PLUGIN, "gamut_bar does not know this load");
 }
 
 static double next_rung(struct load *load)
@@ -139,10 +140,18 @@ bool load_next(struct bar *bar, double *stress)
   struct load *load = &bar->load;
   if (load->ended)
     return false;
-  *stress = load->kind == LOAD_CYCLIC  ? next_of_leg(bar)
-            : load->kind == LOAD_TABLE ? next_of_table(load)
-                                       : next_rung(load);
-  return true;
+  switch (load->kind) {
+  case GAMUT_BAR_LOAD_MONOTONIC:
+    *stress = next_rung(load);
+    return true;
+  case GAMUT_BAR_LOAD_CYCLIC:
+    *stress = next_of_leg(bar);
+    return true;
+  case GAMUT_BAR_LOAD_TABLE:
+    *stress = next_of_table(load);
+    return true;
+  }
+  return false;
 }
 
 static void keep_level(struct bar *bar, long level)
@@ -185,12 +194,17 @@ void load_stepped(struct bar *bar)
 {
   struct load *load = &bar->load;
   load->step++;
-  if (load->kind == LOAD_CYCLIC && load->tip)
-    end_leg(bar);
-  if (load->kind == LOAD_TABLE)
-    load->ended = (double)load->step >= load->row[2 * load->rows - 2];
-  if (load->kind == LOAD_MONOTONIC) {
+  switch (load->kind) {
+  case GAMUT_BAR_LOAD_MONOTONIC:
     keep_level(bar, load->rung++);
     load->ended = bar->mean_strain > load->strain_limit || bar->nominal_stress > load->stress_limit;
+    break;
+  case GAMUT_BAR_LOAD_CYCLIC:
+    if (load->tip)
+      end_leg(bar);
+    break;
+  case GAMUT_BAR_LOAD_TABLE:
+    load->ended = (double)load->step >= load->row[2 * load->rows - 2];
+    break;
   }
 }

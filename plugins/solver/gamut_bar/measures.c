@@ -1,6 +1,4 @@
 /* What quantities may ask of the bar. */
-#include <string.h>
-
 #include "bar.h"
 
 struct fit {
@@ -39,13 +37,21 @@ static double initial_modulus(const struct bar *bar)
   return bar->span / (bar->area * sum);
 }
 
-static double hardening(const struct bar *bar, const char *name, const struct gamut_values *given)
+_Static_assert(GAMUT_BAR_N_PRIME_MODULUS_CHOICES == GAMUT_BAR_K_PRIME_MODULUS_CHOICES &&
+                   GAMUT_BAR_N_PRIME_MODULUS_CHOICES == GAMUT_BAR_N_PRIME_TRUE_MODULUS_CHOICES &&
+                   GAMUT_BAR_N_PRIME_MODULUS_CHOICES == GAMUT_BAR_K_PRIME_TRUE_MODULUS_CHOICES,
+               "the four fits have the same arguments");
+
+static struct fit fit(const struct bar *bar, bool truly, const struct gamut_values *given)
 {
-  bool initial = strcmp(gamut_text(given, "modulus"), "initial") == 0;
-  bool truly = strstr(name, "_true") != NULL;
-  struct fit fit = fit_levels(bar, truly, (size_t)gamut_integer(given, "levels"),
-                              initial ? initial_modulus(bar) : bar->modulus);
-  return name[0] == 'n' ? fit.n : fit.K;
+  const size_t count = (size_t)gamut_integer(given, "levels");
+  switch (gamut_bar_n_prime_modulus_of(given)) {
+  case GAMUT_BAR_N_PRIME_MODULUS_NOMINAL:
+    return fit_levels(bar, truly, count, bar->modulus);
+  case GAMUT_BAR_N_PRIME_MODULUS_INITIAL:
+    return fit_levels(bar, truly, count, initial_modulus(bar));
+  }
+  return (struct fit){NAN, NAN};
 }
 
 static double strain_measure(const struct bar *bar)
@@ -119,26 +125,26 @@ static double total_nonlocal(const struct bar *bar)
   return total(bar, nonlocal_gamut);
 }
 
-static const struct scalar {
-  const char *name;
-  double (*value)(const struct bar *);
-} scalar[] = {{"strain", strain_measure},
-              {"stress_strain", stress_measure},
-              {"stress", stress_measure},
-              {"force", force_measure},
-              {"initial_modulus", initial_modulus},
-              {"loop_energy", loop_energy},
-              {"loop_closure", loop_closure},
-              {"rupture_stress", rupture_stress},
-              {"rupture_strain", rupture_strain},
-              {"rupture_bond", rupture_bond},
-              {"saturated_families", saturated_families},
-              {"strain_deviation", strain_deviation},
-              {"newton_rounds", newton_rounds},
-              {"gradient_rounds", gradient_rounds},
-              {"grid_redraws", redraws},
-              {"total_local_gamut", total_local},
-              {"total_nonlocal_gamut", total_nonlocal}};
+/* Measures without arguments. */
+static double (*const scalar[])(const struct bar *) = {
+    [GAMUT_BAR_MEASURE_STRAIN] = strain_measure,
+    [GAMUT_BAR_MEASURE_STRESS_STRAIN] = stress_measure,
+    [GAMUT_BAR_MEASURE_STRESS] = stress_measure,
+    [GAMUT_BAR_MEASURE_FORCE] = force_measure,
+    [GAMUT_BAR_MEASURE_INITIAL_MODULUS] = initial_modulus,
+    [GAMUT_BAR_MEASURE_LOOP_ENERGY] = loop_energy,
+    [GAMUT_BAR_MEASURE_LOOP_CLOSURE] = loop_closure,
+    [GAMUT_BAR_MEASURE_RUPTURE_STRESS] = rupture_stress,
+    [GAMUT_BAR_MEASURE_RUPTURE_STRAIN] = rupture_strain,
+    [GAMUT_BAR_MEASURE_RUPTURE_BOND] = rupture_bond,
+    [GAMUT_BAR_MEASURE_SATURATED_FAMILIES] = saturated_families,
+    [GAMUT_BAR_MEASURE_STRAIN_DEVIATION] = strain_deviation,
+    [GAMUT_BAR_MEASURE_NEWTON_ROUNDS] = newton_rounds,
+    [GAMUT_BAR_MEASURE_GRADIENT_ROUNDS] = gradient_rounds,
+    [GAMUT_BAR_MEASURE_GRID_REDRAWS] = redraws,
+    [GAMUT_BAR_MEASURE_TOTAL_LOCAL_GAMUT] = total_local,
+    [GAMUT_BAR_MEASURE_TOTAL_NONLOCAL_GAMUT] = total_nonlocal,
+};
 
 static double level_value(const struct bar *bar, bool strain, long level)
 {
@@ -147,22 +153,36 @@ static double level_value(const struct bar *bar, bool strain, long level)
   return strain ? bar->level[level].strain : bar->level[level].stress;
 }
 
+/* Measures with arguments; false for others. */
+static bool argued(const struct bar *bar, enum gamut_bar_measure which,
+                   const struct gamut_values *given, double *value)
+{
+  if (which == GAMUT_BAR_MEASURE_LEVEL_STRAIN)
+    *value = level_value(bar, true, gamut_integer(given, "level"));
+  else if (which == GAMUT_BAR_MEASURE_LEVEL_STRESS)
+    *value = level_value(bar, false, gamut_integer(given, "level"));
+  else if (which == GAMUT_BAR_MEASURE_N_PRIME)
+    *value = fit(bar, false, given).n;
+  else if (which == GAMUT_BAR_MEASURE_N_PRIME_TRUE)
+    *value = fit(bar, true, given).n;
+  else if (which == GAMUT_BAR_MEASURE_K_PRIME)
+    *value = fit(bar, false, given).K;
+  else if (which == GAMUT_BAR_MEASURE_K_PRIME_TRUE)
+    *value = fit(bar, true, given).K;
+  else
+    return false;
+  return true;
+}
+
 gamut_status measure_bar(void *self, const char *name, const struct gamut_body *body,
                          const struct gamut_values *arguments, double *value)
 {
   const struct bar *bar = self;
+  const enum gamut_bar_measure which = gamut_bar_measure_of(name);
   (void)body;
-  for (size_t k = 0; k < sizeof scalar / sizeof scalar[0]; k++)
-    if (strcmp(name, scalar[k].name) == 0) {
-      *value = scalar[k].value(bar);
-      return GAMUT_OK;
-    }
-  if (strcmp(name, "level_strain") == 0 || strcmp(name, "level_stress") == 0)
-    *value = level_value(bar, strcmp(name, "level_strain") == 0, gamut_integer(arguments, "level"));
-  else if (strcmp(name, "n_prime") == 0 || strcmp(name, "n_prime_true") == 0 ||
-           strcmp(name, "K_prime") == 0 || strcmp(name, "K_prime_true") == 0)
-    *value = hardening(bar, name, arguments);
-  else
+  if ((size_t)which < sizeof scalar / sizeof scalar[0] && scalar[which])
+    *value = scalar[which](bar);
+  else if (!argued(bar, which, arguments, value))
     return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
   return GAMUT_OK;
 }

@@ -1,7 +1,5 @@
 /* States of the families: active, saturated (they take up next to no more elastic energy) and
  * broken. */
-#include <string.h>
-
 #include "bar.h"
 
 /* Tangent over elastic modulus below which a family is saturated. */
@@ -31,6 +29,11 @@ void bonds_look(struct bar *bar)
   if (worst < 1.0 || bar->rupture.broken)
     return;
   bar->rupture = (struct rupture){true, bond, bar->nominal_stress, bar->mean_strain};
-  if (strcmp(gamut_text(bar->values, "rupture"), "stop") == 0)
+  switch (gamut_bar_rupture_of(bar->values)) {
+  case GAMUT_BAR_RUPTURE_STOP:
     bar->load.ended = true;
+    break;
+  case GAMUT_BAR_RUPTURE_REPORT:
+    break;
+  }
 }

@@ -1,7 +1,5 @@
 /* Weights of the nonlocal bonds: w = a G a V with a such that every row sums to one; then
  * V_p w_pq = V_q w_qp as well. */
-#include <string.h>
-
 #include "bar.h"
 
 enum { BLOCK = 64 };
@@ -173,14 +171,22 @@ void weights_apply_symmetric(const struct bar *bar, const double *x, double *y, 
 static gamut_status choose_kernel(struct bar *bar)
 {
   enum { DENSE_MOST = 2000 };
-  const char *wanted = gamut_text(bar->values, "operator");
   double *noise;
   bool given;
   gamut_status status = noise_of_pairs(bar, &noise, &given);
   if (status != GAMUT_OK)
     return status;
-  bool dense = strcmp(wanted, "dense") == 0 ||
-               (strcmp(wanted, "auto") == 0 && (given || bar->bonds <= DENSE_MOST));
+  bool dense = false;
+  switch (gamut_bar_operator_of(bar->values)) {
+  case GAMUT_BAR_OPERATOR_AUTO:
+    dense = given || bar->bonds <= DENSE_MOST;
+    break;
+  case GAMUT_BAR_OPERATOR_DENSE:
+    dense = true;
+    break;
+  case GAMUT_BAR_OPERATOR_INTERPOLATED:
+    break;
+  }
   if (given && !dense)
     return gamut_fail_at(bar->run, bar->values, "operator", "dense",
                          "the interpolated operator knows no noise of weights");

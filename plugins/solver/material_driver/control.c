@@ -13,11 +13,12 @@ static const struct key {
   const char *name;
   enum control control;
   size_t from, to; /* components that have it */
-} key[] = {{"strain_rate", CONTROL_RATE, 0, SYMMETRIC},
-           {"log_strain", CONTROL_LOG_STRAIN, 0, NORMALS},
-           {"engineering_strain", CONTROL_STRAIN, 0, NORMALS},
-           {"stress", CONTROL_STRESS, 0, SYMMETRIC},
-           {"velocity_gradient", CONTROL_RATE, NORMALS, COMPONENTS}};
+  bool symmetric;  /* a shear is that of its mirror image too */
+} key[] = {{"strain_rate", CONTROL_RATE, 0, SYMMETRIC, true},
+           {"log_strain", CONTROL_LOG_STRAIN, 0, NORMALS, false},
+           {"engineering_strain", CONTROL_STRAIN, 0, NORMALS, false},
+           {"stress", CONTROL_STRESS, 0, SYMMETRIC, true},
+           {"velocity_gradient", CONTROL_RATE, NORMALS, COMPONENTS, false}};
 enum { KEYS = sizeof key / sizeof key[0] };
 
 static gamut_status check_rows(struct gamut_run *run, const struct gamut_values *values,
@@ -69,7 +70,7 @@ static gamut_status curve_read(struct gamut_run *run, const struct gamut_values 
     curve->row = row;
     curve->rows = rows;
     bool rate = key[k].control == CONTROL_RATE || key[k].control == CONTROL_STRESS;
-    out->symmetric[c] = c >= NORMALS && key[k].name[0] == 's';
+    out->symmetric[c] = c >= NORMALS && key[k].symmetric;
     status = check_rows(run, values, path, curve);
     if (status == GAMUT_OK && !rate && rows == 1)
       status = make_ramp(run, gamut_real(values, "end"), curve);

@@ -179,33 +179,40 @@ static gamut_status after(void *self)
   return GAMUT_OK;
 }
 
+_Static_assert(MATERIAL_DRIVER_LOG_STRAIN_COMPONENT_CHOICES == SYMMETRIC &&
+                   MATERIAL_DRIVER_LOG_STRAIN_COMPONENT_XX == 0 &&
+                   MATERIAL_DRIVER_LOG_STRAIN_COMPONENT_YY == 1 &&
+                   MATERIAL_DRIVER_LOG_STRAIN_COMPONENT_ZZ == 2 &&
+                   MATERIAL_DRIVER_LOG_STRAIN_COMPONENT_XY == 3 &&
+                   MATERIAL_DRIVER_LOG_STRAIN_COMPONENT_YZ == 4 &&
+                   MATERIAL_DRIVER_LOG_STRAIN_COMPONENT_ZX == 5,
+               "components as tensors have them");
+
 static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
                             const struct gamut_values *arguments, double *value)
 {
-  static const char *const component[] = {"xx", "yy", "zz", "xy", "yz", "zx"};
   static const size_t place[] = {0, 4, 8, 1, 5, 6}, mirror[] = {0, 4, 8, 3, 7, 2};
   struct driver *driver = self;
   const char *body_name = GAMUT_HOST(driver->run)->body_name(body);
   const struct point *point = driver->point;
   double strain[SYMMETRIC];
-  size_t c = 0;
   while (strcmp(point->body, body_name) != 0)
     point++;
-  if (strcmp(name, "work") == 0) {
+  switch (material_driver_measure_of(name)) {
+  case MATERIAL_DRIVER_MEASURE_WORK:
     *value = point->work;
     return GAMUT_OK;
-  }
-  const bool strain_asked = strcmp(name, "log_strain") == 0;
-  if (!strain_asked && strcmp(name, "engineering_strain") != 0)
-    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
-  while (strcmp(component[c], gamut_text(arguments, "component")) != 0)
-    c++;
-  log_strain(point->H, strain);
-  if (strain_asked)
-    *value = strain[c];
-  else
+  case MATERIAL_DRIVER_MEASURE_LOG_STRAIN:
+    log_strain(point->H, strain);
+    *value = strain[material_driver_log_strain_component_of(arguments)];
+    return GAMUT_OK;
+  case MATERIAL_DRIVER_MEASURE_ENGINEERING_STRAIN: {
+    const size_t c = (size_t)material_driver_engineering_strain_component_of(arguments);
     *value = point->H[place[c]] + (c < NORMALS ? 0.0 : point->H[mirror[c]]);
-  return GAMUT_OK;
+    return GAMUT_OK;
+  }
+  }
+  return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
 }
 
 static gamut_status describe(void *self, double *step, char *text, size_t size)

@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <gamut/run.h>
+#include "material_point_method.gamut.h"
 
 #include "planes/planes.h"
 #include "grid/grid.h"

@@ -28,56 +28,109 @@ static gamut_status read_domain(struct model *m, const struct gamut_values *valu
   return GAMUT_OK;
 }
 
-/* Which of `names`, which end with a null, the choice at `path` is. */
-static gamut_status chosen(const struct model *m, const struct gamut_values *values,
-                           const char *path, const char *const *names, int *number)
+static gamut_status unknown(const struct model *m, const char *path)
 {
-  const char *name = gamut_text(values, path);
-  for (*number = 0; names[*number]; (*number)++)
-    if (strcmp(name, names[*number]) == 0)
-      return GAMUT_OK;
-  return gamut_fail(m->run, GAMUT_PLUGIN, "material_point_method does not know the %s '%s'", path,
-                    name);
+  return gamut_fail(m->run, GAMUT_PLUGIN, "material_point_method does not know this %s", path);
+}
+
+static gamut_status read_shape(struct model *m, const struct gamut_values *values)
+{
+  switch (material_point_method_shape_of(values)) {
+  case MATERIAL_POINT_METHOD_SHAPE_LINEAR:
+    m->shape = SHAPE_LINEAR;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_SHAPE_GIMP:
+    m->shape = SHAPE_GIMP;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_SHAPE_QUADRATIC:
+    m->shape = SHAPE_QUADRATIC;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_SHAPE_CUBIC:
+    m->shape = SHAPE_CUBIC;
+    return GAMUT_OK;
+  }
+  return unknown(m, "shape");
+}
+
+static gamut_status read_domains(struct model *m, const struct gamut_values *values)
+{
+  if (m->shape != SHAPE_GIMP && gamut_given(values, "gimp"))
+    return gamut_fail_at(m->run, values, "gimp", "shape: gimp, or no gimp",
+                         "the shape is %s: only those of gimp have domains",
+                         gamut_text(values, "shape"));
+  switch (material_point_method_gimp_domain_of(values)) {
+  case MATERIAL_POINT_METHOD_GIMP_DOMAIN_CONTIGUOUS:
+    m->contiguous = m->shape == SHAPE_GIMP;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_GIMP_DOMAIN_FIXED:
+    m->contiguous = false;
+    return GAMUT_OK;
+  }
+  return unknown(m, "gimp.domain");
+}
+
+static gamut_status read_order(struct model *m, const struct gamut_values *values)
+{
+  switch (material_point_method_order_of(values)) {
+  case MATERIAL_POINT_METHOD_ORDER_AUTO:
+    m->order = m->shape == SHAPE_LINEAR ? ORDER_MUSL : ORDER_USL;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_ORDER_MUSL:
+    m->order = ORDER_MUSL;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_ORDER_USL:
+    m->order = ORDER_USL;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_ORDER_USF:
+    m->order = ORDER_USF;
+    return GAMUT_OK;
+  }
+  return unknown(m, "order");
 }
 
 static gamut_status read_scheme(struct model *m, const struct gamut_values *values)
 {
-  static const char *const shapes[] = {"linear", "gimp", "quadratic", "cubic", NULL};
-  static const char *const orders[] = {"usl", "musl", "usf", "auto", NULL};
-  int shape, order;
-  gamut_status status = chosen(m, values, "shape", shapes, &shape);
+  gamut_status status = read_shape(m, values);
   if (status == GAMUT_OK)
-    status = chosen(m, values, "order", orders, &order);
-  if (status != GAMUT_OK)
-    return status;
-  m->shape = (enum shape)shape;
-  m->order = order < 3 ? (enum order)order : m->shape == SHAPE_LINEAR ? ORDER_MUSL : ORDER_USL;
+    status = read_order(m, values);
   m->limited = m->shape == SHAPE_LINEAR && m->order == ORDER_USL;
-  m->contiguous =
-      m->shape == SHAPE_GIMP && strcmp(gamut_text(values, "gimp.domain"), "contiguous") == 0;
-  if (m->shape != SHAPE_GIMP && gamut_given(values, "gimp"))
-    return gamut_fail_at(m->run, values, "gimp", "shape: gimp, or no gimp",
-                         "the shape is %s: only those of gimp have domains", shapes[m->shape]);
-  return GAMUT_OK;
+  return status == GAMUT_OK ? read_domains(m, values) : status;
+}
+
+static gamut_status read_model(struct model *m, const struct gamut_values *values)
+{
+  switch (material_point_method_transfer_model_of(values)) {
+  case MATERIAL_POINT_METHOD_TRANSFER_MODEL_FLIP:
+    m->rule = RULE_FLIP;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_TRANSFER_MODEL_PIC:
+    m->rule = RULE_PIC;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_TRANSFER_MODEL_APIC:
+    m->rule = RULE_APIC;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_TRANSFER_MODEL_XPIC:
+    m->rule = RULE_XPIC;
+    return GAMUT_OK;
+  }
+  return unknown(m, "transfer.model");
 }
 
 static gamut_status read_rule(struct model *m, const struct gamut_values *values)
 {
-  static const char *const rules[] = {"flip", "pic", "apic", "xpic", NULL};
-  int rule;
-  gamut_status status = chosen(m, values, "transfer.model", rules, &rule);
+  const gamut_status status = read_model(m, values);
+  const char *rule = gamut_text(values, "transfer.model");
   if (status != GAMUT_OK)
     return status;
-  m->rule = (enum rule)rule;
   m->filter = (int)gamut_integer(values, "transfer.order");
   m->pic = m->rule == RULE_FLIP ? gamut_real(values, "transfer.pic") : 1.0;
   m->give_old = m->rule == RULE_XPIC ? 0.0 : m->pic;
   if (m->rule != RULE_FLIP && gamut_given(values, "transfer.pic"))
     return gamut_fail_at(m->run, values, "transfer.pic", "model: flip, or no pic",
-                         "pic is a share in flip; %s takes none", rules[m->rule]);
+                         "pic is a share in flip; %s takes none", rule);
   if (m->rule != RULE_XPIC && gamut_given(values, "transfer.order"))
     return gamut_fail_at(m->run, values, "transfer.order", "model: xpic, or no order",
-                         "%s has no order", rules[m->rule]);
+                         "%s has no order", rule);
   if (m->rule == RULE_APIC && m->shape == SHAPE_LINEAR)
     return gamut_fail_at(m->run, values, "transfer.model", "a shape of gimp, quadratic or cubic",
                          "apic and linear shapes make energy at the nodes around a body, which see "
@@ -85,15 +138,34 @@ static gamut_status read_rule(struct model *m, const struct gamut_values *values
   return GAMUT_OK;
 }
 
+static gamut_status read_geometry(struct model *m, const struct gamut_values *values)
+{
+  switch (material_point_method_geometry_of(values)) {
+  case MATERIAL_POINT_METHOD_GEOMETRY_1D:
+    m->geometry = GEOMETRY_1D;
+    m->dimension = 1;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_GEOMETRY_PLANE_STRAIN:
+    m->geometry = GEOMETRY_PLANE_STRAIN;
+    m->dimension = 2;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_GEOMETRY_AXISYMMETRIC:
+    m->geometry = GEOMETRY_AXISYMMETRIC;
+    m->dimension = 2;
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_GEOMETRY_3D:
+    m->geometry = GEOMETRY_3D;
+    m->dimension = 3;
+    return GAMUT_OK;
+  }
+  return unknown(m, "geometry");
+}
+
 gamut_status model_read(struct model *m, const struct gamut_values *values)
 {
-  static const char *const geometries[] = {"1d", "plane_strain", "axisymmetric", "3d", NULL};
-  int geometry;
-  gamut_status status = chosen(m, values, "geometry", geometries, &geometry);
+  gamut_status status = read_geometry(m, values);
   if (status != GAMUT_OK)
     return status;
-  m->geometry = (enum geometry)geometry;
-  m->dimension = m->geometry == GEOMETRY_1D ? 1 : m->geometry == GEOMETRY_3D ? 3 : 2;
   m->cell = gamut_real(values, "cell");
   m->courant = gamut_real(values, "courant");
   m->fixed_step = gamut_given(values, "step") ? gamut_real(values, "step") : 0.0;
@@ -115,7 +187,7 @@ void model_warn(const struct model *m)
     return;
   for (size_t i = 0; i < m->bodies; i++) {
     const char *strength = m->host->body_strength(m->run, m->body[i].scene);
-    if (strength == NULL || strcmp(strength, "none") == 0)
+    if (strength == NULL)
       continue;
     gamut_warn(m->run,
                "shape linear with order musl does not converge where matter flows, as body '%s' "

@@ -1,6 +1,4 @@
 /* The operations of the solver: makes the model, starts it, chooses steps. */
-#include "material_point_method.gamut.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -132,6 +130,17 @@ static gamut_status open_counts(struct model *m)
              : GAMUT_INTERNAL;
 }
 
+static gamut_status read_outside(struct model *m, const struct gamut_values *values)
+{
+  switch (material_point_method_domain_outside_of(values)) {
+  case MATERIAL_POINT_METHOD_DOMAIN_OUTSIDE_STOP:
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_DOMAIN_OUTSIDE_REMOVE:
+    return removal_open_domain(m);
+  }
+  return gamut_fail(m->run, GAMUT_PLUGIN, "material_point_method does not know this outside");
+}
+
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
   struct model *m = gamut_allocate(run, "solver", sizeof *m);
@@ -159,8 +168,8 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
     status = ledger_open(m);
   if (status == GAMUT_OK)
     status = open_counts(m);
-  if (status == GAMUT_OK && m->bounded && strcmp(gamut_text(values, "domain.outside"), "stop") != 0)
-    status = removal_open_domain(m);
+  if (status == GAMUT_OK && m->bounded)
+    status = read_outside(m, values);
   if (status == GAMUT_OK && m->geometry == GEOMETRY_AXISYMMETRIC) {
     const struct gamut_plane axis = {.normal = {1.0, 0.0, 0.0},
                                      .normal_rule = GAMUT_PLANE_MIRROR,

@@ -9,11 +9,11 @@
 /* Below so many slots threads cost more than they give. */
 enum { FEW_SLOTS = 1 << 14 };
 
-static int axis_of(const struct gamut_values *arguments)
-{
-  const char *name = gamut_text(arguments, "axis");
-  return name[0] == 'x' ? 0 : name[0] == 'y' ? 1 : 2;
-}
+GAMUT_CHOICE_IS_AXIS(MATERIAL_POINT_METHOD_EXTENT_AXIS);
+GAMUT_CHOICE_IS_AXIS(MATERIAL_POINT_METHOD_DIAMETER_ALONG);
+GAMUT_CHOICE_IS_AXIS(MATERIAL_POINT_METHOD_FRONT_AXIS);
+GAMUT_CHOICE_IS_AXIS(MATERIAL_POINT_METHOD_MOMENTUM_AXIS);
+GAMUT_CHOICE_IS_AXIS(MATERIAL_POINT_METHOD_MEAN_VELOCITY_AXIS);
 
 /* The points of a body with what measures need of them. */
 struct cloud {
@@ -132,15 +132,22 @@ static gamut_status extent(struct model *m, const struct cloud *c, int axis, dou
 static gamut_status diameter(struct model *m, const struct cloud *c,
                              const struct gamut_values *arguments, double *value)
 {
-  const char *name = gamut_text(arguments, "along");
-  const int along = name[0] == 'x' ? 0 : name[0] == 'y' ? 1 : 2, axis = along == 0 ? 1 : 0;
+  const int along = (int)material_point_method_diameter_along_of(arguments);
+  const int axis = along == 0 ? 1 : 0;
   const double part = gamut_real(arguments, "height");
   double low = 0.0, high = 0.0, from = 0.0, to = 0.0;
   if (along >= (int)m->dimension || axis >= (int)m->dimension)
     return gamut_fail(m->run, GAMUT_SCENE, "a diameter needs two axes");
   span(m, c, along, -1, 0.0, 0.0, &low, &high);
-  const bool now = strcmp(gamut_text(arguments, "of"), "current") == 0;
-  const double length = now ? high - low : c->body->spacing[along] * (double)c->body->count[along];
+  double length = 0.0;
+  switch (material_point_method_diameter_of_of(arguments)) {
+  case MATERIAL_POINT_METHOD_DIAMETER_OF_INITIAL:
+    length = c->body->spacing[along] * (double)c->body->count[along];
+    break;
+  case MATERIAL_POINT_METHOD_DIAMETER_OF_CURRENT:
+    length = high - low;
+    break;
+  }
   const double place = low + part * length;
   double reach = fmax(gamut_real(arguments, "within") * length, 0.5 * m->cell);
   while (!span(m, c, axis, along, place - reach, place + reach, &from, &to) && reach < length)
@@ -149,14 +156,20 @@ static gamut_status diameter(struct model *m, const struct cloud *c,
   return GAMUT_OK;
 }
 
+/* The field of that name; none for a pressure, which follows from the stress, less `part`. */
 static gamut_status field_pointer(struct model *m, const struct cloud *c, const char *name,
-                                  const double **value, double *sign)
+                                  const double **value, const double **part)
 {
   static const char *const stress[6] = {"stress_xx", "stress_yy", "stress_zz",
                                         "stress_xy", "stress_yz", "stress_zx"};
   static const char *const speed[3] = {"velocity_x", "velocity_y", "velocity_z"};
-  *sign = 1.0;
-  *value = NULL;
+  static const char *const pressure[2] = {"pressure", "total_pressure"};
+  *value = *part = NULL;
+  for (unsigned k = 0; k < 2; k++)
+    if (strcmp(name, pressure[k]) == 0) {
+      *part = k == 0 ? m->host->stored(c->set, m->field.viscous_pressure, 0) : NULL;
+      return GAMUT_OK;
+    }
   for (unsigned k = 0; k < 6; k++)
     if (strcmp(name, stress[k]) == 0)
       *value = c->stress[k];
@@ -193,15 +206,11 @@ static gamut_status over_field(struct model *m, const struct cloud *c, enum redu
 {
   const char *name = gamut_text(arguments, "field");
   const double *field = NULL, *viscous = NULL;
-  double sign, sum = 0.0, weight = 0.0, most = -INFINITY;
-  if (strcmp(name, "pressure") == 0) {
-    viscous = m->host->stored(c->set, m->field.viscous_pressure, 0);
-  } else if (strcmp(name, "total_pressure") != 0) {
-    const gamut_status status = field_pointer(m, c, name, &field, &sign);
-    if (status != GAMUT_OK)
-      return status;
-  }
-  const int axis = how == FRONT ? axis_of(arguments) : 0;
+  double sum = 0.0, weight = 0.0, most = -INFINITY;
+  const gamut_status status = field_pointer(m, c, name, &field, &viscous);
+  if (status != GAMUT_OK)
+    return status;
+  const int axis = how == FRONT ? (int)material_point_method_front_axis_of(arguments) : 0;
   const bool given = how == FRONT && gamut_given(arguments, "level");
   const double level = given ? gamut_real(arguments, "level") : 0.0;
   for (size_t i = 0; i < c->set->slots; i++) {
@@ -269,31 +278,38 @@ gamut_status measure_value(struct model *m, const char *name, const struct gamut
                            const struct gamut_values *arguments, double *value)
 {
   const struct cloud c = cloud_of(m, body);
-  if (strcmp(name, "extent") == 0)
-    return extent(m, &c, axis_of(arguments), value);
-  if (strcmp(name, "diameter") == 0)
+  int axis;
+  switch (material_point_method_measure_of(name)) {
+  case MATERIAL_POINT_METHOD_MEASURE_EXTENT:
+    return extent(m, &c, (int)material_point_method_extent_axis_of(arguments), value);
+  case MATERIAL_POINT_METHOD_MEASURE_DIAMETER:
     return diameter(m, &c, arguments, value);
-  if (strcmp(name, "front") == 0)
+  case MATERIAL_POINT_METHOD_MEASURE_FRONT:
     return over_field(m, &c, FRONT, arguments, value);
-  if (strcmp(name, "mean") == 0)
+  case MATERIAL_POINT_METHOD_MEASURE_MEAN:
     return over_field(m, &c, MEAN, arguments, value);
-  if (strcmp(name, "maximum") == 0)
+  case MATERIAL_POINT_METHOD_MEASURE_MAXIMUM:
     return over_field(m, &c, MAXIMUM, arguments, value);
-  if (strcmp(name, "pieces") == 0)
+  case MATERIAL_POINT_METHOD_MEASURE_PIECES:
     return body_pieces(m, c.set, value);
-  if (strcmp(name, "long_domains") == 0)
+  case MATERIAL_POINT_METHOD_MEASURE_LONG_DOMAINS:
     return long_domains(m, &c, value);
-  if (strcmp(name, "body_mass") == 0)
+  case MATERIAL_POINT_METHOD_MEASURE_BODY_MASS:
     *value = total(&c, MASS, 0);
-  else if (strcmp(name, "momentum") == 0)
-    *value = total(&c, MOMENTUM, axis_of(arguments));
-  else if (strcmp(name, "mean_velocity") == 0)
-    *value = total(&c, MOMENTUM, axis_of(arguments)) / total(&c, MASS, 0);
-  else if (strcmp(name, "kinetic_energy") == 0)
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_MEASURE_MOMENTUM:
+    *value = total(&c, MOMENTUM, (int)material_point_method_momentum_axis_of(arguments));
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_MEASURE_MEAN_VELOCITY:
+    axis = (int)material_point_method_mean_velocity_axis_of(arguments);
+    *value = total(&c, MOMENTUM, axis) / total(&c, MASS, 0);
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_MEASURE_KINETIC_ENERGY:
     *value = total(&c, KINETIC, 0);
-  else if (strcmp(name, "internal_energy") == 0)
+    return GAMUT_OK;
+  case MATERIAL_POINT_METHOD_MEASURE_INTERNAL_ENERGY:
     *value = total(&c, INTERNAL, 0);
-  else
-    return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
-  return GAMUT_OK;
+    return GAMUT_OK;
+  }
+  return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */
 }
