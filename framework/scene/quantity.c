@@ -226,9 +226,10 @@ static void quantity_read(struct reading *reading, const struct tree *node,
   when_read(reading, node, quantity);
 }
 
-/* One quantity for each of several points: NAME.01, NAME.02, ... */
-static void put_tracers(struct reading *reading, const struct tree *all,
-                        const struct quantity *quantity, const struct places *places)
+/* One quantity for each of several points: NAME.01, NAME.02, ..., which no other has: a name with
+ * a dot does not stand beside its first part. */
+static void put_tracers(struct reading *reading, const struct quantity *quantity,
+                        const struct places *places)
 {
   struct scene *scene = reading->scene;
   const int digits = snprintf(NULL, 0, "%zu", places->count);
@@ -239,11 +240,6 @@ static void put_tracers(struct reading *reading, const struct tree *all,
     one->name = scene_text(reading, "%s.%0*zu", quantity->name, digits, i + 1);
     one->arguments = i == 0 ? quantity->arguments : NULL; /* freed once; points need none */
     memcpy(one->point, &places->place[3 * i], sizeof one->point);
-    const struct tree *other = tree_get(all, one->name);
-    if (other)
-      blame_key(reading, other, "another name",
-                "'%s' is the name of a point of the quantity '%s' already", one->name,
-                quantity->name);
   }
 }
 
@@ -272,7 +268,7 @@ void quantities_read(struct reading *reading, const struct tree *root)
     quantity_read(reading, node->child[i], &quantity, &places);
     room_for(scene, &room, places.count > 0 ? places.count : 1);
     if (places.count > 0)
-      put_tracers(reading, node, &quantity, &places);
+      put_tracers(reading, &quantity, &places);
     else
       scene->quantity[scene->quantities++] = quantity;
     free(places.place);

@@ -13,7 +13,8 @@ RULES = (
     ("takes a letter of a text", re.compile(r"\bgamut_text\s*\([^;()]*\)\s*\[")),
     ("compares the text of a choice", re.compile(r"\bstr\w*cmp\s*\([^;{]*?\bgamut_text\b")),
     ("has a switch with `default`", re.compile(r'^\s*(?:"\s*)?default\s*:(?!\s*\w+[,}])', re.M)),
-    ("compares a letter", re.compile(r"\b(?:name|kind|text|word|wanted|mode)\s*\[\s*\d\s*\]\s*[!=]=")),
+    ("compares a letter", re.compile(
+        r"\b(?:name|kind|text|word|wanted|mode)\s*\[\s*\d\s*\]\s*[!=]=")),
 )
 WRONG = (
     'load->kind = strcmp(kind, "cyclic") == 0 ? CYCLIC : MONOTONIC;',
