@@ -149,8 +149,8 @@ static void signs(void)
   report(good, "signs of zero", good ? 0 : 1, 0);
 }
 
-/* Near 0, where exp(x) - 1 and log(1 + x) live by what rounding leaves, in one rounding mode: within
- * `allowed` ulps, of the argument's sign, 0 at 0. */
+/* Near 0, where exp(x) - 1 and log(1 + x) live by what rounding leaves, in one rounding mode:
+ * within `allowed` ulps, of the argument's sign, 0 at 0. */
 static void near_zero(const struct function *f, int mode, const char *mode_name, double high,
                       double allowed)
 {
@@ -185,8 +185,8 @@ static void near_zero(const struct function *f, int mode, const char *mode_name,
 }
 
 /* A directed rounding of the last sum is off by less than 1 ulp. Up to 1/4 the terms beside x make
- * up to an eighth of the sum, and three of their roundings count: 3/8 more. The exact value is itself
- * known to 2^-11 ulp only. */
+ * up to an eighth of the sum, and three of their roundings count: 3/8 more. The exact value is
+ * itself known to 2^-11 ulp only. */
 static void rounding_modes(const struct function *f)
 {
   near_zero(f, FE_TONEAREST, "to nearest", -2, 1.0);
