@@ -206,6 +206,8 @@ gamut_status material_new(const struct material *material, struct registry *regi
   bound->plastic_strain = component_or_none(fields, "plastic_strain");
   bound->step_factor = component_or_none(fields, "step_factor");
   TRY(make_seats(bound, trace));
+  TRY(elasticity_try(bound->kernel[ELASTICITY], bound->seat[0].law[STRENGTH],
+                     bound->seat[0].law[EOS], trace));
 done:
   if (status != GAMUT_OK) {
     material_free(bound);

@@ -109,6 +109,8 @@ static gamut_status make_tasks(struct bound_effect *bound, struct fields *fields
     for (size_t m = 0; m < bound->materials; m++)
       TRY(links_new(bound->kernel[m], fields, trace, &task->links[m]));
   }
+  for (size_t m = 0; m < bound->materials; m++)
+    TRY(effect_try(bound->kernel[m], trace));
 done:
   return status;
 }

@@ -57,6 +57,10 @@ void links_free(struct links *);
 /* Declares the field of a slot that follows the chunk; null and a message on failure. */
 struct field *slot_field(const struct kernel *, size_t slot, struct fields *, struct trace *);
 
+/* As kernel_try, of the kernels of all tasks of an effect's descriptor: each may write what it
+ * says, and only that. */
+gamut_status effect_try(const struct kernel *, struct trace *);
+
 /* Counts of flagged points, one a thread and plugin. */
 enum { TALLY_MESSAGES = FLAG_COUNTS };
 struct tally {

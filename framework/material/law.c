@@ -198,3 +198,13 @@ void law_begin(struct law *law, size_t count)
   law->image->count = count;
   memset(law->image->status, 0, count * sizeof *law->image->status);
 }
+
+void law_clear(struct law *law)
+{
+  size_t count = 2;
+  for (size_t s = 0; s < law->kernel->slots; s++)
+    count += has_row(law->kernel, s);
+  memset(law->memory, 0, count * law->stride * sizeof(double));
+  memset(law->gathered, 0, count * law->stride * sizeof(double));
+  memset(law->image->status, 0, law->rows * sizeof *law->image->status);
+}

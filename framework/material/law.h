@@ -26,5 +26,10 @@ void law_free(struct law *, struct arena *);
 double *law_row(const struct law *, const char *name);
 /* How many points the next evaluations have, and their statuses cleared. */
 void law_begin(struct law *, size_t count);
+/* Zeros in all rows, as when it was new. */
+void law_clear(struct law *);
+/* As kernel_try, of an elasticity's stress and start with the laws that it calls. */
+gamut_status elasticity_try(const struct kernel *, struct law *strength, struct law *eos,
+                            struct trace *);
 
 #endif

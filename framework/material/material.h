@@ -23,7 +23,7 @@ gamut_status kernel_new(const struct instance *, struct registry *, struct arena
                         struct kernel **);
 /* Calls a law (eos or strength) on a few points: it must write all its outputs and nothing else,
  * not depend on a point's company, and its slopes must be those of its results. GAMUT_PLUGIN if
- * not. */
+ * not, or where it changes the processor's arithmetic. Its inverse likewise, but for the slopes. */
 gamut_status kernel_try(const struct kernel *, struct trace *);
 void kernel_free(struct kernel *);
 const struct descriptor *kernel_descriptor(const struct kernel *);

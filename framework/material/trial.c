@@ -1,9 +1,11 @@
-/* A law is tried once before a run: on eight points, in rows with guard bands of their own. */
+/* Laws, elasticities and the kernels of effects are tried once before a run: on eight points, in
+ * rows with guard bands of their own. */
+#include <fenv.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "material/image.h"
+#include "material/law.h"
 #include "registry/guard.h"
 
 enum { POINTS = 8, BAND = 8, STRIDE = BAND + POINTS + 2 * BAND };
@@ -11,6 +13,10 @@ enum { POINTS = 8, BAND = 8, STRIDE = BAND + POINTS + 2 * BAND };
 struct trial {
   const struct kernel *kernel;
   struct trace *trace;
+  kernel_function function;
+  const struct kernel_task *task; /* of an effect; else null */
+  struct law *strength, *eos;     /* that an elasticity calls, or null */
+  bool carried;                   /* what it may write begins as a value, and may stay so */
   struct image *image;
   double *memory, *before; /* rows of all slots; what they held before a call */
   int64_t status[STRIDE];
@@ -41,6 +47,28 @@ static bool is_written(enum slot_kind kind)
          kind == SLOT_INVERSE_OUTPUT;
 }
 
+enum due { KEPT, ADDED, WRITTEN };
+
+static bool named(const char *const *name, size_t count, const char *wanted)
+{
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(name[i], wanted) == 0)
+      return true;
+  return false;
+}
+
+/* What may become of a slot's points. */
+static enum due due_of(const struct trial *trial, size_t s)
+{
+  const struct slot *slot = &trial->kernel->slot[s];
+  const struct kernel_task *task = trial->task;
+  if (!task || slot->kind == SLOT_SCRATCH || !is_written(slot->kind))
+    return is_written(slot->kind) ? WRITTEN : KEPT;
+  if (named(task->write, task->writes, slot->name))
+    return WRITTEN;
+  return named(task->add, task->adds, slot->name) ? ADDED : KEPT;
+}
+
 static bool is_derivative(enum slot_kind kind)
 {
   return kind == SLOT_DERIVATIVE || kind == SLOT_SECOND_DERIVATIVE;
@@ -55,7 +83,8 @@ static double input_at(const char *name, size_t point)
   } known[] = {{"plastic_strain", 0.0131, 0.0171, 1},   {"plastic_strain_rate", 1.7, 0, 3.1},
                {"temperature", 301.3, 23.1, 1},         {"compression", -0.0213, 0.0067, 1},
                {"energy", 1.03e6, 1.01e6, 1},           {"cell_size", 1.03e-3, 1e-5, 1},
-               {"pressure", 1.03e6, 1e6, 1}};
+               {"pressure", 1.03e6, 1e6, 1},            {"time_step", 1.03e-6, 0, 1},
+               {"volume_ratio", 0.973, 0.0071, 1}};
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
     if (strcmp(name, known[i].name) == 0)
       return (known[i].first + (double)point * known[i].more) *
@@ -78,25 +107,56 @@ static double value_at(const struct kernel *kernel, size_t slot, size_t point)
 /* Points `first` and those after it stand in the rows; what surrounds them is `around`. */
 static void fill(struct trial *trial, size_t first, size_t count, double around)
 {
-  for (size_t s = 0; s < trial->kernel->slots; s++)
+  for (size_t s = 0; s < trial->kernel->slots; s++) {
+    const enum due due = due_of(trial, s);
+    const bool empty = due == WRITTEN && !trial->carried;
     for (size_t i = 0; i < STRIDE; i++) {
       const bool inside = i >= BAND && i < BAND + count;
       row(trial, s)[(ptrdiff_t)i - BAND] =
-          is_written(trial->kernel->slot[s].kind) ? mark()
-          : inside ? value_at(trial->kernel, s, first + i - BAND)
-                   : around;
+          inside && !empty ? value_at(trial->kernel, s, first + i - BAND)
+          : due == KEPT    ? around
+                           : mark();
     }
+  }
 }
 
-static void call(struct trial *trial, size_t count)
+/* An elasticity's laws as the core hands them over: their arguments and parameters are there. */
+static void fill_law(struct law *law, size_t first, size_t count)
 {
+  static const char *const argument[] = {"temperature", "plastic_strain"};
+  if (!law)
+    return;
+  law_begin(law, count);
+  for (size_t s = 0; s < law->kernel->slots; s++)
+    for (size_t i = 0; slot_varies(law->kernel, s) && i < count; i++)
+      ((double *)law->image->pointer[s])[i] = kernel_mean(law->kernel, s);
+  for (size_t a = 0; a < sizeof argument / sizeof argument[0]; a++) {
+    double *to = law_row(law, argument[a]);
+    for (size_t i = 0; to && i < count; i++)
+      to[i] = input_at(argument[a], first + i);
+  }
+}
+
+static gamut_status refuse(const struct trial *trial, const char *what, const char *name);
+
+static gamut_status call(struct trial *trial, size_t first, size_t count)
+{
+  fenv_t calm, after;
   const struct kernel *kernel = trial->kernel;
   memset(trial->status, 0, sizeof trial->status);
   memcpy(trial->before, trial->memory, (kernel->slots + 1) * STRIDE * sizeof(double));
+  fill_law(trial->strength, first, count);
+  fill_law(trial->eos, first, count);
   trial->image->count = count;
   const char *before = guard_enter(kernel->descriptor->id);
-  kernel->main(trial->image);
+  fegetenv(&calm);
+  trial->function(trial->image);
+  fegetenv(&after);
+  fesetenv(&calm);
   guard_leave(before);
+  return same_arithmetic(&calm, &after)
+             ? GAMUT_OK
+             : refuse(trial, "changes the processor's rounding, flush-to-zero or trap flags", NULL);
 }
 
 static gamut_status refuse(const struct trial *trial, const char *what, const char *name)
@@ -115,17 +175,19 @@ static gamut_status check_writes(const struct trial *trial, size_t count)
 {
   for (size_t s = 0; s < trial->kernel->slots; s++) {
     const struct slot *slot = &trial->kernel->slot[s];
+    const enum due due = due_of(trial, s);
     for (size_t i = 0; i < STRIDE; i++) {
       const size_t at = s * STRIDE + i;
       const bool inside = i >= BAND && i < BAND + count;
       const bool kept =
           memcmp(&trial->memory[at], &trial->before[at], sizeof trial->memory[at]) == 0;
-      if (inside && is_written(slot->kind)) {
-        if (kept && slot->kind == SLOT_OUTPUT)
+      if (inside && due != KEPT) {
+        if (kept && !trial->carried && due == WRITTEN && slot->kind == SLOT_OUTPUT)
           return refuse(trial, "leaves points unwritten of", slot->name);
       } else if (!kept) {
         return refuse(trial,
-                      is_written(slot->kind) ? "writes beyond the points that it was given, in"
+                      due != KEPT ? "writes beyond the points that it was given, in"
+                      : is_written(slot->kind) ? "has a task that writes, and does not say so, to"
                       : slot->kind == SLOT_INPUT || slot->kind == SLOT_STATE_BEGIN
                           ? "writes to its input"
                           : "writes to its parameter",
@@ -145,10 +207,12 @@ static gamut_status check_company(struct trial *trial, const double *together)
   gamut_status status = GAMUT_OK;
   for (size_t i = 0; i < POINTS; i++) {
     fill(trial, i, 1, NAN);
-    call(trial, 1);
+    TRY(call(trial, i, 1));
     TRY(check_writes(trial, 1));
     for (size_t s = 0; s < trial->kernel->slots; s++)
-      if (trial->kernel->slot[s].kind == SLOT_OUTPUT &&
+      if ((trial->kernel->slot[s].kind == SLOT_OUTPUT ||
+           trial->kernel->slot[s].kind == SLOT_STATE_END ||
+           trial->kernel->slot[s].kind == SLOT_INVERSE_OUTPUT) &&
           !same(row(trial, s)[0], together[s * STRIDE + BAND + i]))
         return refuse(trial, "gives a point alone another value than beside others:",
                       trial->kernel->slot[s].name);
@@ -168,15 +232,16 @@ static size_t slot_of(const struct kernel *kernel, enum slot_kind kind, const ch
 }
 
 /* The output `of` at all points with input `by` moved by `share` of itself; NaN where flagged. */
-static void moved(struct trial *trial, size_t of, size_t by, double share, double *value)
+static gamut_status moved(struct trial *trial, size_t of, size_t by, double share, double *value)
 {
   fill(trial, 0, POINTS, 0.0);
   for (size_t i = 0; i < POINTS; i++)
     row(trial, by)[i] += share * row(trial, by)[i];
-  call(trial, POINTS);
+  const gamut_status status = call(trial, 0, POINTS);
   for (size_t i = 0; i < POINTS; i++)
     value[i] =
         status_severity(trial->status[BAND + i]) >= GAMUT_WARN ? NAN : row(trial, of)[i];
+  return status;
 }
 
 /* A slope is wrong where central differences agree with each other, the two sides too, and the
@@ -188,8 +253,9 @@ static gamut_status check_slope(struct trial *trial, size_t slope, size_t of, si
   static const double share[SHARES] = {-1e-3, -0.5e-3, 0, 0.5e-3, 1e-3};
   double v[SHARES][POINTS];
   char what[200];
+  gamut_status status = GAMUT_OK;
   for (int k = 0; k < SHARES; k++)
-    moved(trial, of, by, share[k], v[k]);
+    TRY(moved(trial, of, by, share[k], v[k]));
   for (size_t i = 0; i < POINTS; i++) {
     const double step = 1e-3 * value_at(trial->kernel, by, i);
     const double wide = (v[4][i] - v[0][i]) / (2 * step), near = (v[3][i] - v[1][i]) / step;
@@ -203,7 +269,8 @@ static gamut_status check_slope(struct trial *trial, size_t slope, size_t of, si
              near, trial->kernel->slot[by].name, value_at(trial->kernel, by, i));
     return refuse(trial, what, trial->kernel->slot[slope].name);
   }
-  return GAMUT_OK;
+done:
+  return status;
 }
 
 static gamut_status check_slopes(struct trial *trial, const double *together)
@@ -235,32 +302,100 @@ static bool make(struct trial *trial, struct image *image, double *memory)
   trial->memory = memory;
   trial->before = memory + (kernel->slots + 1) * STRIDE;
   image->status = trial->status + BAND;
-  for (size_t s = 0; s < kernel->slots; s++)
+  for (size_t s = 0; s < kernel->slots; s++) {
     image->pointer[s] = is_derivative(kernel->slot[s].kind) ? NULL : row(trial, s);
+    if (kernel->slot[s].kind != SLOT_LAW)
+      continue;
+    const bool strength = strcmp(kernel->slot[s].name, "strength") == 0;
+    const struct law *law = strength ? trial->strength : trial->eos;
+    image->pointer[s] = !law       ? NULL
+                        : strength ? (void *)(uintptr_t)&law->strength
+                                   : (void *)(uintptr_t)&law->eos;
+  }
   return true;
 }
 
-gamut_status kernel_try(const struct kernel *kernel, struct trace *trace)
+static gamut_status perform(struct trial trial, bool slopes)
 {
   gamut_status status = GAMUT_OK;
-  struct trial trial = {.kernel = kernel, .trace = trace};
+  const struct kernel *kernel = trial.kernel;
   const size_t numbers = (kernel->slots + 1) * STRIDE;
   struct image *image = calloc(1, sizeof *image + kernel->slots * sizeof image->pointer[0]);
   double *memory = aligned_alloc(64, 3 * numbers * sizeof *memory);
   double *together = memory ? memory + 2 * numbers : NULL;
   if (!make(&trial, image, memory)) {
-    status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    status = trace_fail(trial.trace, GAMUT_INTERNAL, "out of memory");
     goto done;
   }
   memset(memory, 0, 3 * numbers * sizeof *memory);
   fill(&trial, 0, POINTS, 0.0);
-  call(&trial, POINTS);
+  TRY(call(&trial, 0, POINTS));
   TRY(check_writes(&trial, POINTS));
   memcpy(together, memory, numbers * sizeof *memory);
   TRY(check_company(&trial, together));
-  TRY(check_slopes(&trial, together));
+  if (slopes)
+    TRY(check_slopes(&trial, together));
 done:
   free(memory);
   free(image);
+  return status;
+}
+
+gamut_status kernel_try(const struct kernel *kernel, struct trace *trace)
+{
+  gamut_status status;
+  struct trial trial = {.kernel = kernel, .trace = trace, .function = kernel->main};
+  TRY(perform(trial, true));
+  trial.function = kernel->descriptor->inverse ? kernel_operation(kernel, 1) : NULL;
+  trial.carried = true;
+  if (trial.function)
+    TRY(perform(trial, false));
+done:
+  return status;
+}
+
+/* A trial is no work of the run, and leaves its laws as new. */
+static void renew(struct law *law, uint64_t evaluated)
+{
+  if (!law)
+    return;
+  law->evaluated = evaluated;
+  law_clear(law);
+}
+
+gamut_status elasticity_try(const struct kernel *kernel, struct law *strength, struct law *eos,
+                            struct trace *trace)
+{
+  gamut_status status;
+  const uint64_t evaluated[] = {strength ? strength->evaluated : 0, eos ? eos->evaluated : 0};
+  struct trial trial = {.kernel = kernel,
+                        .trace = trace,
+                        .function = kernel->main,
+                        .strength = strength,
+                        .eos = eos};
+  TRY(perform(trial, false));
+  trial.function = kernel_operation(kernel, 1);
+  trial.carried = true;
+  if (trial.function)
+    TRY(perform(trial, false));
+done:
+  renew(strength, evaluated[0]);
+  renew(eos, evaluated[1]);
+  return status;
+}
+
+gamut_status effect_try(const struct kernel *kernel, struct trace *trace)
+{
+  gamut_status status = GAMUT_OK;
+  const struct descriptor *d = kernel->descriptor;
+  for (size_t t = 0; t < d->tasks; t++) {
+    const struct trial trial = {.kernel = kernel,
+                                .trace = trace,
+                                .function = kernel_named(kernel, d->task[t].kernel),
+                                .task = &d->task[t]};
+    if (trial.function)
+      TRY(perform(trial, false));
+  }
+done:
   return status;
 }
