@@ -106,7 +106,8 @@ def vibrating():
                                     percent(f["energy"], 3)])
             except scenes.Failed as failed:
                 rows.append(name + [f"stops, exit {failed.code}", "", ""])
-    return table(["shape", "order", "cells", "frequency", "amplitude", "energy a period"], rows)
+    return table(["shape", "stress update", "cells", "frequency", "amplitude",
+                  "energy a period"], rows)
 
 
 def kept():

@@ -125,7 +125,7 @@ def one_motion_transfers():
         for order in ("musl", "usf"):
             rows.append([f"{shape}, {points}", "flip", order, *with_orders(
                 motion_errors(GRIDS[1:5], 0.05, shape, "flip", order, points))])
-    return make.table(["shape, points a cell", "transfer", "order",
+    return make.table(["shape, points a cell", "transfer", "stress update",
                        *(f"{n} cells" for n in GRIDS[1:5])], rows)
 
 
@@ -138,7 +138,7 @@ def one_column():
                 row.append(attempted(cases.column, cells, shape, "pic 0.001", order, form=lambda f:
                                      f"{f['place']:.1e}, {f['stress']:.1e}"))
             rows.append(row)
-    return make.table(["shape", "order", "12 cells", "25", "50", "100"], rows)
+    return make.table(["shape", "stress update", "12 cells", "25", "50", "100"], rows)
 
 
 def one_tension():
@@ -153,7 +153,7 @@ def one_tension():
                 rows.append([shape, transfer, order, *(
                     attempted(cases.tension, p, shape, transfer, order, form=form)
                     for p in (1, 2, 4))])
-    return make.table(["shape", "transfer", "order", "1 point a cell", "2", "4"], rows)
+    return make.table(["shape", "transfer", "stress update", "1 point a cell", "2", "4"], rows)
 
 
 def one_sod():
@@ -188,7 +188,7 @@ def one_free():
                 except scenes.Failed as failed:
                     row.append({3: "refused"}.get(failed.code, "stops"))
             rows.append(row[:2] + [f"{momentum:.0e}"] + row[2:])
-    return make.table(["shape", "order", "momentum", *cases.TRANSFERS], rows)
+    return make.table(["shape", "stress update", "momentum", *cases.TRANSFERS], rows)
 
 
 def one_noise():
@@ -201,7 +201,7 @@ def one_noise():
                                                 form=lambda f: number(f["kept"]))
                                       for v in (cases.NULL, cases.WHITE)))
             rows.append([*row[:2], *(c.replace("refused / refused", "refused") for c in row[2:])])
-    return make.table(["shape", "order", *cases.TRANSFERS], rows)
+    return make.table(["shape", "stress update", *cases.TRANSFERS], rows)
 
 
 def one_ladder():
@@ -212,7 +212,7 @@ def one_ladder():
             found = [cases.ladder(shape, order, n) for n in numbers]
             rows.append([shape, order] + [f"{f['kept']:.2f}" if f["exit"] == 0
                                           else f"exit {f['exit']}" for f in found])
-    return make.table(["shape", "order", *(str(n) for n in numbers)], rows)
+    return make.table(["shape", "stress update", *(str(n) for n in numbers)], rows)
 
 
 def one_places():
@@ -228,7 +228,8 @@ def one_places():
                 shown = f"stops, exit {failed.code}"
             rows.append([shape, order, f"{cases.flight(shape, 'flip', order):.0e}",
                          f"{cases.on_nodes(shape, 'flip', order):.0e}", shown])
-    return make.table(["shape", "order", "1000 cells: stress over E", "on nodes: rate of strain",
+    return make.table(["shape", "stress update", "1000 cells: stress over E",
+                       "on nodes: rate of strain",
                        "near a node: acceleration"], rows)
 
 

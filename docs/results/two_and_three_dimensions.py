@@ -35,7 +35,7 @@ def row(scheme, measure, columns, *before):
 
 
 def rows(measure, columns, *before, wanted=None):
-    return make.table(["shape", "transfer", "order"] + [head for head, _ in columns],
+    return make.table(["shape", "transfer", "stress update"] + [head for head, _ in columns],
                       [row(s, measure, columns, *before) for s in wanted or ALL])
 
 
@@ -47,7 +47,8 @@ def ladder_row(scheme, case, grids):
 
 
 def ladders(case, grids, wanted):
-    return make.table(["shape", "transfer", "order", *(f"{n} cells" for n in grids), "orders"],
+    return make.table(["shape", "transfer", "stress update", *(f"{n} cells" for n in grids),
+                       "orders"],
                       [list(s) + ladder_row(s, case, grids) for s in wanted])
 
 
@@ -123,7 +124,8 @@ def beyond():
             lines.append([shape, order] + [power(max(f[key] for f in good)) for key in (
                 "acceleration", "rate", "momentum")]
                          + [f"{len(found) - len(good)} of {len(found)}"])
-    return make.table(["shape", "order", "acceleration", "velocity gradient", "momentum lost",
+    return make.table(["shape", "stress update", "acceleration", "velocity gradient",
+                       "momentum lost",
                        "runs that stop"], lines)
 
 
@@ -163,7 +165,7 @@ def disks_grids():
             found = free_bodies.disks(settings)
             lines.append([order, str(cells), str(points)] + [show(found) for _, show in DISKS[:-1]]
                          + [f"{found['contact']:.3f} s"])
-    return make.table(["order", "cells in the radius", "points a cell"]
+    return make.table(["stress update", "cells in the radius", "points a cell"]
                       + [head for head, _ in DISKS[:-1]] + ["contact"], lines)
 
 
@@ -185,7 +187,7 @@ def bar():
                 f"{make.percent(found['foot'])}, {1e3 * found['length']:.3f} mm",
                 f"{found['time']:.2f} s"]
         lines.append(line)
-    return make.table(["shape", "transfer", "order", "4 cells: foot, length", "time",
+    return make.table(["shape", "transfer", "stress update", "4 cells: foot, length", "time",
                        "8 cells", "time", "16 cells", "time"], lines)
 
 

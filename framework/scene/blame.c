@@ -222,10 +222,14 @@ void blame_unknown(struct reading *reading, const struct tree *child,
   const char *near = nearest(child->key, known, count + others);
   if (near && !found && !foreign_name(child->key) && reading->guesses < GUESSES_MAX)
     reading->guess[reading->guesses++] = (struct guess){child->parent, near};
-  const char *instead = foreign_name(child->key);
+  const char *instead = foreign_name(child->key), *now = renamed_key(child);
+  if (now && !has_name(known, count + others, now))
+    now = NULL;
   if (foreign_comma(child)) {
     snprintf(expected, sizeof expected,
              "a comma ends a value: write a decimal point, such as 5.5 for 5,5");
+  } else if (now) {
+    renamed_words(child->key, now, expected, sizeof expected);
   } else if (found) {
     snprintf(expected, sizeof expected, "'%s' belongs %s", found, where);
   } else if (instead) {
@@ -240,7 +244,7 @@ void blame_unknown(struct reading *reading, const struct tree *child,
       snprintf(expected, sizeof expected, "known: %s",
                list_text(known, count + others, list, sizeof list));
   }
-  blame_key(reading, child, count + others || found || instead ? expected : NULL,
+  blame_key(reading, child, count + others || found || instead || now ? expected : NULL,
             "unknown key '%s' in %s", child->key, what);
   free(known);
 }

@@ -81,7 +81,10 @@ static void blame_field(struct reading *reading, const struct tree *node)
     count = add_measures(scene->effect[i].instance.descriptor, name, count, MEASURES);
   for (size_t i = 0; i < fields; i++)
     name[count++] = field[i];
-  blame_value(reading, node, suggest(reading, node->text, name, count, expected, sizeof expected),
+  const char *now = renamed_field(node->text);
+  blame_value(reading, node,
+              now ? renamed_words(node->text, now, expected, sizeof expected)
+                  : suggest(reading, node->text, name, count, expected, sizeof expected),
               "unknown field '%.60s'", node->text);
   free(field);
   free(name);

@@ -62,7 +62,10 @@ static void blame_measure(struct reading *reading, const struct tree *node,
   for (size_t i = 0; i < known_fields; i++)
     if (!has_name(name, names, field[i]))
       name[names++] = field[i];
-  blame_value(reading, node, suggest(reading, node->text, name, names, expected, sizeof expected),
+  const char *now = renamed_field(node->text);
+  blame_value(reading, node,
+              now ? renamed_words(node->text, now, expected, sizeof expected)
+                  : suggest(reading, node->text, name, names, expected, sizeof expected),
               "unknown measure '%.60s'", node->text);
   free(name);
   free(field);
@@ -142,8 +145,17 @@ static void when_read(struct reading *reading, const struct tree *node, struct q
     every_within(reading, every, "samples", quantity->every, samples_most);
 }
 
+static void blame_old_field(struct reading *reading, const struct tree *named)
+{
+  char expected[WORDS_SIZE];
+  const char *now = renamed_field(named->text);
+  if (now)
+    blame_value(reading, named, renamed_words(named->text, now, expected, sizeof expected),
+                "unknown field '%.60s'", named->text);
+}
+
 /* The unit of the field, or of the measure of points, that an argument names. */
-static const char *unit_named(const struct reading *reading, const struct tree *node,
+static const char *unit_named(struct reading *reading, const struct tree *node,
                               const struct quantity *quantity, const char *argument)
 {
   const struct scene *scene = reading->scene;
@@ -158,6 +170,8 @@ static const char *unit_named(const struct reading *reading, const struct tree *
     unit = measure && measure->at == MEASURE_POINT ? measure->unit : NULL;
   }
   free(list);
+  if (!unit)
+    blame_old_field(reading, named);
   return unit;
 }
 

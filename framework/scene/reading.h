@@ -104,6 +104,11 @@ const char *foreign_name(const char *key);
 /* Whether a key is what follows a decimal comma within braces: {A: 5,5 MPa} has the keys A and
  * "5 MPa". */
 bool foreign_comma(const struct tree *);
+/* renamed.c: the name that an old one was given up for; null if it is none. Of a key, by its path;
+ * of a measure or a field, as each may stand where the other does. */
+const char *renamed_key(const struct tree *);
+const char *renamed_field(const char *name);
+const char *renamed_words(const char *old, const char *now, char *buffer, size_t size);
 /* Whether a key of the mapping that is a fault already was meant to be this one: it is not missed.
  */
 bool was_meant(const struct reading *, const struct tree *mapping, const char *name);

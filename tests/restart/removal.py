@@ -20,7 +20,7 @@ CASES = {
                       "plastic_strain: 0.5, flagged: true, lost: true, most: 0.5}",
                       FOLLOWED % ("bar", "[0.1 mm, 0.1 mm]")], "12 us"),
     "erosion, usf and gimp": (BAR, ["solver.cell=0.635 mm", "solver.end=20 us",
-                                    "solver.shape=gimp", "solver.order=usf",
+                                    "solver.shape=gimp", "solver.stress_update=usf",
                                     "effects.foot={model: erosion, plastic_strain: 0.5, "
                                     "lost: true, most: 0.5}"], "12 us"),
     "outside the domain": (BAR, ["solver.cell=0.635 mm", "solver.end=26 us",

@@ -30,7 +30,7 @@ EVERY = {
 
 # Shapes, transfers and orders that keep something of their own between two steps.
 SCHEMES = (("shape=linear",), ("shape=quadratic",), ("shape=gimp", "transfer={model: apic}"),
-           ("shape=cubic", "transfer={model: xpic, order: 2}", "order=usf"))
+           ("shape=cubic", "transfer={model: xpic, order: 2}", "stress_update=usf"))
 
 
 def compare(name, scene, settings, every, folder):

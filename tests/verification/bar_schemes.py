@@ -40,7 +40,7 @@ def test_bar(cells, asked):
 def test_usl(bars):
     """Linear functions with usl throw points: the run ends or says which."""
     for scene in bars:
-        told, how = ends_or_tells(scene, {"solver.shape": "linear", "solver.order": "usl"})
+        told, how = ends_or_tells(scene, {"solver.shape": "linear", "solver.stress_update": "usl"})
         scenes.report(told, f"{scene}, linear, usl: ends, or stops and names the point ({how})")
 
 

@@ -10,15 +10,15 @@ SCENES = (("taylor_bar", {"solver.cell": "0.5 mm", "solver.end": "12 us"}),
                                "solver.shape": "linear"}),
           ("plate_impact", {}), ("sod", {"solver.end": "0.05 s", "quantities": "{}"}),
           ("vibrating_bar", {"solver.end": "2 s"}),
-          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "linear", "solver.order": "usl"}),
-          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "linear", "solver.order": "usf",
+          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "linear", "solver.stress_update": "usl"}),
+          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "linear", "solver.stress_update": "usf",
                              "solver.transfer": "{model: xpic, order: 3}"}),
           ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "gimp",
                              "solver.transfer": "{model: apic}"}),
-          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "cubic", "solver.order": "musl",
+          ("taylor_bar_3d", {**SHORT_3D, "solver.shape": "cubic", "solver.stress_update": "musl",
                              "solver.transfer": "{model: apic}"}),
           ("colliding_disks", {"solver.end": "0.4 s", "solver.shape": "gimp",
-                               "solver.order": "usf"}),
+                               "solver.stress_update": "usf"}),
           ("rotating_block", {"solver.end": "0.2 s", "solver.shape": "cubic",
                               "solver.transfer": "{model: xpic, order: 4}"}))
 WAYS = ((2, None), (3, None), (1, 8), (2, 100), (3, 1024))
@@ -44,7 +44,7 @@ def history(result):
 
 def label(scene, changes):
     """The scene with the scheme that was chosen for it."""
-    scheme = [v for k, v in changes.items() if k[7:] in ("shape", "order", "transfer")]
+    scheme = [v for k, v in changes.items() if k[7:] in ("shape", "stress_update", "transfer")]
     return ", ".join([scene, *scheme])
 
 

@@ -14,11 +14,11 @@ def torn(steps, shear=0.05, swell=0.01):
     card = material(linear_eos(SOLID.bulk), None, SOLID.shear, SOLID.density)
     control = {c: {"log_strain": swell / 3.0} for c in ("xx", "yy", "zz")}
     control["xy"] = {"velocity_gradient": f"{shear} 1/s"}
-    found = drive(card, control, 1.0, steps, final=["energy", "spalled"],
+    found = drive(card, control, 1.0, steps, final=["energy", "damage"],
                   effects={"tear": {"model": "spall", "limit": "1 Pa"}})
     # each step begins without a deviator: G gamma^2 / 2 of the strain of that step alone
     work = steps * 0.5 * SOLID.shear * (shear / steps) ** 2
-    return found["energy"] / work, found["spalled"], (shear + swell) / steps
+    return found["energy"] / work, found["damage"], (shear + swell) / steps
 
 
 def tears(steps, shear=2e-3, limit=1e9):
@@ -29,11 +29,11 @@ def tears(steps, shear=2e-3, limit=1e9):
     control = {c: {"log_strain": rows([(0, 0), (1, 0), (2, most / 3.0)], "")}
                for c in ("xx", "yy", "zz")}
     control["xy"] = {"velocity_gradient": rows([(1, shear), (1, 0.0)], "1/s")}
-    found = drive(card, control, 2.0, steps, final=["energy", "spalled"],
+    found = drive(card, control, 2.0, steps, final=["energy", "damage"],
                   effects={"tear": {"model": "spall", "limit": f"{limit!r} Pa"}})
     ratio = 1.0 / (1.0 - limit / SOLID.bulk)  # where p = K (1 / J - 1) is - limit
     held = 0.5 * SOLID.shear * shear ** 2 + SOLID.bulk * (ratio - 1.0 - math.log(ratio))
-    return found["energy"] / held, found["spalled"], limit * 2.0 * most / steps / held
+    return found["energy"] / held, found["damage"], limit * 2.0 * most / steps / held
 
 
 def heated(steps, squeeze, flow=400e6, specific_heat=477.0, share=0.9):

@@ -59,7 +59,7 @@ def settings(shape=None, transfer=None, order=None, **more):
     """What --set needs for a named shape, transfer and order; more keys of the solver."""
     found = dict(SHAPES[shape]) if shape else {}
     found.update(TRANSFERS[transfer] if transfer else {})
-    found.update({"order": order} if order else {})
+    found.update({"stress_update": order} if order else {})
     found.update(more)
     return {"solver." + key: value for key, value in found.items()}
 
@@ -213,7 +213,7 @@ PULL = """effects:
       x: "X > 0.5 ? 8*(X - 0.5) * ((1 - 1/(1 + 0.01*t)) + 2*log(1 + 0.01*t)) / 3 : 0"
 quantities:
   force: {{measure: force, effect: foot, axis: x, every: 1 s}}
-  pieces: {{measure: pieces, body: bar, every: 1 s}}
+  fragments: {{measure: fragments, body: bar, every: 1 s}}
 outputs: {{frames: 1, fields: [velocity]}}
 """
 
@@ -229,8 +229,8 @@ def tension(points, shape, transfer="flip", order="auto", stretch=3.0):
     with open(f"{folder}/summary.json", encoding="utf-8") as text:
         summary = json.load(text)
     shutil.rmtree(folder, ignore_errors=True)
-    force, pieces = (summary["quantities"][name] for name in ("force", "pieces"))
-    apart = [t for t, n in zip(pieces["times"], pieces["values"]) if n > 1]
+    force, fragments = (summary["quantities"][name] for name in ("force", "fragments"))
+    apart = [t for t, n in zip(fragments["times"], fragments["values"]) if n > 1]
     last = 1 + 0.01 * (apart[0] if apart else summary["time"])
     reached = 1 + 0.01 * numpy.asarray(force["times"])
     off = numpy.abs(numpy.abs(force["values"]) / uniaxial(numpy.maximum(reached, 1.001)) - 1)

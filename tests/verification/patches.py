@@ -83,11 +83,11 @@ def falls_apart(settings, many=12):
     scene = pressed(2, 0.13, box(2, 0.0, 0.5 * many), f'["{speed} * x", "0"]', 540, step)
     result = scenes.run(scene, {
         **settings, "bodies.block.pressure": "1e-12 Pa", "outputs.every": "5400 s",
-        "quantities.pieces": f"{{measure: pieces, body: block, every: {step} s}}"})
-    times, pieces = result.history("pieces")
+        "quantities.fragments": f"{{measure: fragments, body: block, every: {step} s}}"})
+    times, fragments = result.history("fragments")
     scenes.drop(result)
-    return (next((0.5 * (1 + speed * t) for t, n in zip(times, pieces) if n > 1), math.inf),
-            int(pieces[-1]))
+    return (next((0.5 * (1 + speed * t) for t, n in zip(times, fragments) if n > 1), math.inf),
+            int(fragments[-1]))
 
 
 def beyond_a_face(axes, distance, threshold, settings):
@@ -146,19 +146,19 @@ def test_beyond_a_face(powers, all_axes):
                          max(f["momentum"] for f in found), 1e-13)
 
 
-def test_pieces():
+def test_fragments():
     """Neighbours share a node up to so many cells; a block whose points are farther apart is seen
-    by the grid as pieces, which the measure counts."""
+    by the grid as fragments, which the measure counts."""
     for shape, cells in (("linear", 1), ("gimp", 2), ("gimp, fixed", 2), ("quadratic", 2),
                          ("cubic", 3)):
         apart, many = falls_apart(schemes.scheme(shape))
         scenes.report(cells < apart < cells + 0.2 and many > 1,
-                      f"flown apart, {shape}: in pieces when points are {apart:.2f} cells apart "
-                      f"({cells} to {cells + 0.2}), {many} pieces at 3.2")
+                      f"flown apart, {shape}: in fragments when points are {apart:.2f} cells apart "
+                      f"({cells} to {cells + 0.2}), {many} fragments at 3.2")
 
 
 def main(fine):
-    test_pieces()
+    test_fragments()
     test_patch([i / 20 for i in range(20)] if fine else (0.0, 0.37), (1, 2, 3) if fine else (2,))
     test_beyond_a_face(range(1, 13) if fine else (1, 6, 12), (1, 2, 3) if fine else (3,))
 

@@ -132,7 +132,7 @@ class Figures:
         where = f"{name}, {shape} {order} {' '.join(str(v) for v in transfer.values())}"
         result = scenes.run(scenes.written("reaction", yaml.safe_dump(described(
             geometry, effects, velocity,
-            {"shape": shape, "order": order, "transfer": transfer}, end))))
+            {"shape": shape, "stress_update": order, "transfer": transfer}, end))))
         # Around an axis there is no momentum along the radius.
         axes = "y" if geometry == "axisymmetric" else "xyz"[:AXES[geometry]]
         given = {k: [series(result, f"{e}_impulse_{k}") for e in effects] for k in axes}

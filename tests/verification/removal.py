@@ -92,7 +92,8 @@ def same_bits():
     for name, scene, changes in (("outflow in 3d", bar("3d"), {"solver.end": "10 us"}),
                                  ("an eroding bar", "taylor_bar", eroding),
                                  ("an eroding bar, usf", "taylor_bar",
-                                  {**eroding, "solver.order": "usf", "solver.shape": "linear"})):
+                                  {**eroding, "solver.stress_update": "usf",
+                                   "solver.shape": "linear"})):
         first = frames(scenes.run(scene, changes))
         for threads, block in ((2, None), (3, 8), (2, 1024)):
             size = {} if block is None else {"solver.block": str(block)}
@@ -214,7 +215,7 @@ quantities:
     for order in ("usl", "musl", "usf"):
         result = scenes.run(scene, {"effects.cut": "{model: erosion, lost: true, most: 0.5}",
                                     "quantities.cut": "{measure: eroded_points, effect: cut}",
-                                    "solver.order": order})
+                                    "solver.stress_update": order})
         count = result.history("cut")[1][-1]
         scenes.report(count == 32.0, f"{order}: lost points go, the {count:.0f} that get there")
         scenes.below("  residual of the ledger", result.residual(), 1e-10)

@@ -21,7 +21,8 @@ __attribute__((constructor)) static void set(void)
 SHORT = {"outputs.frames": "1"}
 CASES = [("plate_impact", {"solver.end": "1.9 us"}, "plateau_pressure"),
          ("plate_impact", {"solver.end": "1.9 us", "solver.shape": "linear"}, "plateau_pressure"),
-         ("plate_impact", {"solver.end": "1.9 us", "solver.shape": "gimp", "solver.order": "musl"},
+         ("plate_impact", {"solver.end": "1.9 us", "solver.shape": "gimp",
+                           "solver.stress_update": "musl"},
           "plateau_pressure"),
          ("plate_impact", {"solver.end": "1.9 us",
                            "solver.transfer": "{model: xpic, order: 3}"}, "plateau_pressure"),

@@ -38,7 +38,7 @@ def name(shape, transfer, order="auto"):
 
 def scheme(shape="quadratic", transfer="flip", order="auto", **more):
     """Settings of a scene; `more` by path, with __ for a dot."""
-    return {**SHAPES[shape], **TRANSFERS[transfer], "solver.order": order,
+    return {**SHAPES[shape], **TRANSFERS[transfer], "solver.stress_update": order,
             **{path.replace("__", "."): str(value) for path, value in more.items()}}
 
 

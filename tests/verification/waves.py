@@ -15,7 +15,7 @@ solver:
   geometry: 1d
   cell: {cell} m
   shape: {shape}
-  order: {order}
+  stress_update: {order}
   courant: 0.1
   end: 100 s
 materials:
@@ -62,7 +62,7 @@ def fitted(times, values):
 def vibrating(cell, shape="quadratic", order="auto"):
     """Frequency, amplitude, and change of energy a period, over two periods."""
     result = scenes.run("vibrating_bar", {
-        "solver.cell": f"{cell} m", "solver.shape": shape, "solver.order": order,
+        "solver.cell": f"{cell} m", "solver.shape": shape, "solver.stress_update": order,
         "quantities.internal": "{measure: internal_energy, body: bar}"})
     omega, amplitude = fitted(*result.history("mean_velocity"))
     energy = [k + i for k, i in zip(result.history("kinetic_energy")[1],

@@ -99,11 +99,11 @@ PLASTIC = "strength: {model: von_mises, yield_stress: 90 MPa}, "
 FLOWS = "does not converge where matter flows"
 for name, solver, strength, due in (
         ("linear", "shape: linear", PLASTIC, 1),
-        ("linear, order musl", "shape: linear, order: musl", PLASTIC, 1),
-        ("linear, order usl", "shape: linear, order: usl", PLASTIC, 0),
+        ("linear, musl", "shape: linear, stress_update: musl", PLASTIC, 1),
+        ("linear, usl", "shape: linear, stress_update: usl", PLASTIC, 0),
         ("linear, elastic", "shape: linear", "", 0),
         ("linear, a fluid", "shape: linear", "strength: {model: none}, ", 0),
-        ("quadratic, order musl", "shape: quadratic, order: musl", PLASTIC, 0)):
+        ("quadratic, musl", "shape: quadratic, stress_update: musl", PLASTIC, 0)):
     scene = written("scheme " + name, {"a": bar(-4.0, 0.0)}, solver=solver, strength=strength)
     for command in ("check", "explain"):
         code, _, error = said(command, scene)

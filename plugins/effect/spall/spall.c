@@ -4,7 +4,7 @@ struct spall_effect {
   struct gamut_run *run;
   double limit;
   double tears; /* 1; 0: tension is cut at the limit */
-  struct gamut_field stress, energy, volume_ratio, gradient, viscous, spalled;
+  struct gamut_field stress, energy, volume_ratio, gradient, viscous, damage;
 };
 
 static gamut_status cut(void *self, const struct gamut_chunk *chunk)
@@ -14,9 +14,9 @@ static gamut_status cut(void *self, const struct gamut_chunk *chunk)
   const double half_step = 0.5 * gamut_time_step(e->run), limit = e->limit, tears = e->tears;
   const double *J0 = gamut_begin(chunk, e->volume_ratio, 0);
   const double *J1 = gamut_end(chunk, e->volume_ratio, 0);
-  const double *torn = gamut_begin(chunk, e->spalled, 0);
+  const double *torn = gamut_begin(chunk, e->damage, 0);
   const double *viscous = gamut_end(chunk, e->viscous, 0); /* null without viscosity */
-  double *s[6], *energy = gamut_end(chunk, e->energy, 0), *now = gamut_end(chunk, e->spalled, 0);
+  double *s[6], *energy = gamut_end(chunk, e->energy, 0), *now = gamut_end(chunk, e->damage, 0);
   for (unsigned k = 0; k < 6; k++)
     s[k] = gamut_end(chunk, e->stress, k);
   for (size_t i = 0; i < chunk->count; i++) {
@@ -49,11 +49,11 @@ static gamut_status add_task(struct gamut_run *run, struct spall_effect *effect)
       {"stress", GAMUT_READ},  {"stress", GAMUT_WRITE},           {"energy", GAMUT_READ},
       {"energy", GAMUT_WRITE}, {"volume_ratio", GAMUT_READ_BEGIN}, {"volume_ratio", GAMUT_READ},
       {"velocity_gradient", GAMUT_READ}, {"viscous_pressure", GAMUT_READ_IF},
-      {"spalled", GAMUT_READ_BEGIN}, {"spalled", GAMUT_WRITE}};
+      {"damage", GAMUT_READ_BEGIN}, {"damage", GAMUT_WRITE}};
   static const char *const name[] = {"stress", "energy", "volume_ratio", "velocity_gradient",
-                                     "viscous_pressure", "spalled"};
+                                     "viscous_pressure", "damage"};
   struct gamut_field *const field[] = {&effect->stress, &effect->energy, &effect->volume_ratio,
-                                       &effect->gradient, &effect->viscous, &effect->spalled};
+                                       &effect->gradient, &effect->viscous, &effect->damage};
   for (int k = 0; k < 6; k++) {
     const gamut_status status = gamut_field_named(run, name[k], field[k]);
     if (status != GAMUT_OK)

@@ -196,8 +196,8 @@ gamut_status measure_value(struct model *, const char *name, const struct gamut_
 /* points/pairs.c: warns, once a pair, of bodies so close that they share nodes. */
 gamut_status pairs_warn(struct model *);
 
-/* points/pieces.c: in how many pieces the grid sees the points of a set. */
-gamut_status body_pieces(struct model *, const struct gamut_set *, double *pieces);
+/* points/fragments.c: in how many fragments the grid sees the points of a set. */
+gamut_status body_fragments(struct model *, const struct gamut_set *, double *fragments);
 
 /* The model's own error texts about a point. */
 gamut_status point_failed(struct model *, const struct gamut_set *, size_t slot, const double x[3],

@@ -69,30 +69,30 @@ static gamut_status read_domains(struct model *m, const struct gamut_values *val
   return unknown(m, "gimp.domain");
 }
 
-static gamut_status read_order(struct model *m, const struct gamut_values *values)
+static gamut_status read_stress_update(struct model *m, const struct gamut_values *values)
 {
-  switch (material_point_method_order_of(values)) {
-  case MATERIAL_POINT_METHOD_ORDER_AUTO:
+  switch (material_point_method_stress_update_of(values)) {
+  case MATERIAL_POINT_METHOD_STRESS_UPDATE_AUTO:
     m->order = m->shape == SHAPE_LINEAR ? ORDER_MUSL : ORDER_USL;
     return GAMUT_OK;
-  case MATERIAL_POINT_METHOD_ORDER_MUSL:
+  case MATERIAL_POINT_METHOD_STRESS_UPDATE_MUSL:
     m->order = ORDER_MUSL;
     return GAMUT_OK;
-  case MATERIAL_POINT_METHOD_ORDER_USL:
+  case MATERIAL_POINT_METHOD_STRESS_UPDATE_USL:
     m->order = ORDER_USL;
     return GAMUT_OK;
-  case MATERIAL_POINT_METHOD_ORDER_USF:
+  case MATERIAL_POINT_METHOD_STRESS_UPDATE_USF:
     m->order = ORDER_USF;
     return GAMUT_OK;
   }
-  return unknown(m, "order");
+  return unknown(m, "stress_update");
 }
 
 static gamut_status read_scheme(struct model *m, const struct gamut_values *values)
 {
   gamut_status status = read_shape(m, values);
   if (status == GAMUT_OK)
-    status = read_order(m, values);
+    status = read_stress_update(m, values);
   m->limited = m->shape == SHAPE_LINEAR && m->order == ORDER_USL;
   return status == GAMUT_OK ? read_domains(m, values) : status;
 }
@@ -190,7 +190,7 @@ void model_warn(const struct model *m)
     if (strength == NULL)
       continue;
     gamut_warn(m->run,
-               "shape linear with order musl does not converge where matter flows, as body '%s' "
+               "shape linear with musl does not converge where matter flows, as body '%s' "
                "(strength %s) may: with smaller cells the length of a Taylor bar falls through its "
                "limit, by 1 to 2 %% at 20 cells in the radius. It is fast for a first look; "
                "figures take shape quadratic or cubic (docs/shapes_and_transfers.md)",

@@ -290,8 +290,8 @@ gamut_status measure_value(struct model *m, const char *name, const struct gamut
     return over_field(m, &c, MEAN, arguments, value);
   case MATERIAL_POINT_METHOD_MEASURE_MAXIMUM:
     return over_field(m, &c, MAXIMUM, arguments, value);
-  case MATERIAL_POINT_METHOD_MEASURE_PIECES:
-    return body_pieces(m, c.set, value);
+  case MATERIAL_POINT_METHOD_MEASURE_FRAGMENTS:
+    return body_fragments(m, c.set, value);
   case MATERIAL_POINT_METHOD_MEASURE_LONG_DOMAINS:
     return long_domains(m, &c, value);
   case MATERIAL_POINT_METHOD_MEASURE_BODY_MASS:

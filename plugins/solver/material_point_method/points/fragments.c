@@ -1,5 +1,5 @@
-/* Into how many pieces the grid sees a body fall: groups of points of which none shares a node with
- * a point of another group. More than one is fracture, real or numerical. */
+/* Into how many fragments the grid sees a body fall: groups of points of which none shares a node
+ * with a point of another group. More than one is fracture, real or numerical. */
 #include <math.h>
 
 #include "model.h"
@@ -62,21 +62,21 @@ static void join(const struct model *m, const struct cells *c, int32_t cell)
   }
 }
 
-gamut_status body_pieces(struct model *m, const struct gamut_set *set, double *pieces)
+gamut_status body_fragments(struct model *m, const struct gamut_set *set, double *fragments)
 {
   struct cells c = {0};
-  *pieces = 0.0;
+  *fragments = 0.0;
   if (set->points == 0)
     return GAMUT_OK;
   gamut_status status = places_clear(m->run, &c.table, set->points);
-  c.at = gamut_allocate(m->run, "pieces", set->points * sizeof *c.at);
-  c.parent = gamut_allocate(m->run, "pieces", set->points * sizeof *c.parent);
+  c.at = gamut_allocate(m->run, "fragments", set->points * sizeof *c.at);
+  c.parent = gamut_allocate(m->run, "fragments", set->points * sizeof *c.parent);
   if (status == GAMUT_OK && c.at != NULL && c.parent != NULL) {
     enter_points(m, set, &c);
     for (size_t i = 0; i < c.count; i++)
       join(m, &c, (int32_t)i);
     for (size_t i = 0; i < c.count; i++)
-      *pieces += c.parent[i] == (int32_t)i;
+      *fragments += c.parent[i] == (int32_t)i;
   } else {
     status = GAMUT_INTERNAL;
   }
