@@ -1,13 +1,15 @@
 #include <ctype.h>
+#include <dirent.h>
 #include <errno.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include "command/new_template.h"
 #include "command/options.h"
 #include "error/memory.h"
+#include "registry/registry.h"
 
 /* What goes into the templates. */
 struct names {
@@ -27,47 +29,69 @@ static const char *value_of(const struct names *names, const char *word, size_t 
   return NULL;
 }
 
-static void fill_in(const char *text, const struct names *names, FILE *file)
+static void fill_in(const char *line, const struct names *names, FILE *file)
 {
-  while (*text) {
+  while (*line) {
     size_t length;
-    const char *value = *text == '@' ? value_of(names, text, &length) : NULL;
+    const char *value = *line == '@' ? value_of(names, line, &length) : NULL;
     if (value) {
       fputs(value, file);
-      text += length;
+      line += length;
     } else {
-      fputc(*text++, file);
+      fputc(*line++, file);
     }
   }
 }
 
-static char *path_of(const char *folder, const char *name, const struct names *names)
-{
-  char *path = NULL;
-  size_t size = 0;
-  FILE *file = open_memstream(&path, &size);
-  if (!file)
-    return NULL;
-  fprintf(file, "%s/", folder);
-  fill_in(name, names, file);
-  return memory_close(file, &path);
-}
-
-static gamut_status write_files(struct command *command, const char *folder,
-                                const struct new_file *files, const struct names *names)
+/* One file of a skeleton; NAME in its own name is the plugin's. */
+static gamut_status write_file(struct command *command, const char *from, const char *item,
+                               const char *folder, const struct names *names)
 {
   gamut_status status = GAMUT_OK;
-  for (; files->name && status == GAMUT_OK; files++) {
-    char *path = path_of(folder, files->name, names);
-    FILE *file = path ? fopen(path, "wx") : NULL;
-    if (file)
-      for (size_t i = 0; i < 3 && files->text[i]; i++)
-        fill_in(files->text[i], names, file);
-    if (!file || fclose(file) != 0)
-      status = trace_fail(command->trace, GAMUT_OUTPUT, "cannot write %s: %s", path ? path : folder,
-                          strerror(errno));
-    free(path);
-  }
+  char path[PATH_MAX], line[512];
+  const bool named = strncmp(item, "NAME.", 5) == 0;
+  snprintf(path, sizeof path, "%s/%s", from, item);
+  FILE *skeleton = fopen(path, "r");
+  if (!skeleton)
+    return trace_fail(command->trace, GAMUT_OUTPUT, "cannot read the skeleton %s: %s", path,
+                      strerror(errno));
+  snprintf(path, sizeof path, "%s/%s%s", folder, named ? names->name : "", named ? item + 4 : item);
+  FILE *file = fopen(path, "wx");
+  while (file && fgets(line, sizeof line, skeleton))
+    fill_in(line, names, file);
+  if (!file || ferror(skeleton) || fclose(file) != 0)
+    status = trace_fail(command->trace, GAMUT_OUTPUT, "cannot write %s: %s", path, strerror(errno));
+  fclose(skeleton);
+  return status;
+}
+
+/* The folder share/templates/PART. */
+static gamut_status find_skeleton(struct command *command, const char *part, char *folder,
+                                  size_t size)
+{
+  char place[64];
+  snprintf(place, sizeof place, "share/templates/%s", part);
+  return installed_data(place, folder, size)
+             ? GAMUT_OK
+             : trace_fail(command->trace, GAMUT_OUTPUT,
+                          "no folder %s, neither in the tree that gamut was built in nor where it "
+                          "is installed",
+                          place);
+}
+
+static gamut_status write_files(struct command *command, const char *from, const char *folder,
+                                const struct names *names)
+{
+  gamut_status status = GAMUT_OK;
+  DIR *listed = opendir(from);
+  const struct dirent *item;
+  if (!listed)
+    return trace_fail(command->trace, GAMUT_OUTPUT, "cannot read the folder %s: %s", from,
+                      strerror(errno));
+  while (status == GAMUT_OK && (item = readdir(listed)) != NULL)
+    if (item->d_name[0] != '.')
+      status = write_file(command, from, item->d_name, folder, names);
+  closedir(listed);
   return status;
 }
 
@@ -93,9 +117,9 @@ static bool name_is_good(const char *name)
   return true;
 }
 
-static gamut_status read_names(struct command *command, const char *text, struct names *names,
-                               enum gamut_kind *kind)
+static gamut_status read_names(struct command *command, const char *text, struct names *names)
 {
+  enum gamut_kind kind;
   const char *kinds[GAMUT_KINDS], *slash = strchr(text, '/');
   char word[32];
   for (int k = 0; k < GAMUT_KINDS; k++)
@@ -103,12 +127,12 @@ static gamut_status read_names(struct command *command, const char *text, struct
   if (!slash || (size_t)(slash - text) >= sizeof word)
     return usage_fail(command, "a plugin is named KIND/NAME, e.g. strength/mine, not '%s'", text);
   snprintf(word, sizeof word, "%.*s", (int)(slash - text), text);
-  if (!kind_from_name(word, kind)) {
+  if (!kind_from_name(word, &kind)) {
     const char *near = nearest(word, kinds, GAMUT_KINDS);
     return near ? usage_fail(command, "there is no kind '%s'; did you mean '%s'?", word, near)
                 : usage_fail(command, "there is no kind '%s'", word);
   }
-  names->kind = kind_name(*kind);
+  names->kind = kind_name(kind);
   names->name = slash + 1;
   if (!name_is_good(names->name))
     return usage_fail(command,
@@ -122,22 +146,15 @@ static gamut_status read_names(struct command *command, const char *text, struct
 
 gamut_status command_new(struct command *command)
 {
-  static const struct new_file *const template_of[GAMUT_KINDS] = {
-      [GAMUT_KIND_EOS] = new_template_eos,
-      [GAMUT_KIND_STRENGTH] = new_template_strength,
-      [GAMUT_KIND_ELASTICITY] = new_template_elasticity,
-      [GAMUT_KIND_EFFECT] = new_template_effect,
-      [GAMUT_KIND_RANDOM_FIELD] = new_template_random_field,
-      [GAMUT_KIND_ESTIMATOR] = new_template_estimator,
-      [GAMUT_KIND_SOLVER] = new_template_solver,
-  };
   gamut_status status = GAMUT_OK;
   const char *text = NULL, *folder = NULL;
-  enum gamut_kind kind;
+  char own[PATH_MAX], common[PATH_MAX];
   struct names names = {0};
   const struct option option[] = {{"--output", 'o', OPTION_TEXT, &folder}};
   TRY(options_read(command, option, 1, &text, 1, 1, NULL));
-  TRY(read_names(command, text, &names, &kind));
+  TRY(read_names(command, text, &names));
+  TRY(find_skeleton(command, names.kind, own, sizeof own));
+  TRY(find_skeleton(command, "common", common, sizeof common));
   if (!folder)
     folder = names.name;
   if (mkdir(folder, 0755) != 0) {
@@ -147,8 +164,8 @@ gamut_status command_new(struct command *command)
                               strerror(errno));
     goto done;
   }
-  TRY(write_files(command, folder, template_of[kind], &names));
-  TRY(write_files(command, folder, new_template_common, &names));
+  TRY(write_files(command, own, folder, &names));
+  TRY(write_files(command, common, folder, &names));
   printf("%s: the skeleton of %s/%s; next: cd %s && make check\n", folder, names.kind, names.name,
          folder);
 done:

@@ -76,6 +76,10 @@ bool registry_is_open(const struct registry *, const struct descriptor *);
  * "/usr/lib/gamut/plugins" and "PREFIX/bin". False where the program does not stand in a folder of
  * programs. */
 bool installed_beside(const char *program, const char *folder, char *path, size_t size);
+/* Where a file or folder that comes with gamut is, by its place in the tree ("inputs/x.yaml",
+ * "share/templates/eos"): in the tree of a program that was built in place, beside an installed
+ * one, or where it was to be installed. False if it is nowhere. */
+bool installed_data(const char *name, char *path, size_t size);
 /* Prints where was looked, what was skipped and why, what is shadowed. */
 void registry_paths(const struct registry *, FILE *);
 

@@ -67,35 +67,12 @@ static bool step_up(char *folder, size_t size)
   return true;
 }
 
-/* The folder `inputs` of the tree that a program built in place belongs to, or the installed one.
- */
+/* In gamut's own folder `inputs`. */
 static bool locate_data(const char *name, char *path, size_t size)
 {
-  char program[PATH_MAX];
-  ssize_t length = readlink("/proc/self/exe", program, sizeof program - 1);
-  program[length > 0 ? length : 0] = 0;
-  char *slash = strrchr(program, '/');
-  if (slash) {
-    *slash = 0;
-    snprintf(path, size, "%s/plugins.path", program);
-    if (exists(path)) {
-      snprintf(path, size, "%s/../inputs/%s", program, name);
-      if (exists(path))
-        return true;
-    }
-  }
-#ifdef GAMUT_DATA_DIR
-  char beside[PATH_MAX];
-  if (slash && installed_beside(program, GAMUT_DATA_DIR, beside, sizeof beside)) {
-    snprintf(path, size, "%s/%s", beside, name);
-    if (exists(path))
-      return true;
-  }
-  snprintf(path, size, "%s/%s", GAMUT_DATA_DIR, name);
-  return exists(path);
-#else
-  return false;
-#endif
+  char place[PATH_MAX];
+  snprintf(place, sizeof place, "inputs/%s", name);
+  return installed_data(place, path, size);
 }
 
 /* Looks beside the including file, in the folders `inputs` at and above it, in gamut's own. */

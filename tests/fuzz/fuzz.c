@@ -32,7 +32,7 @@ struct bench *bench_get(void)
   demand(mkdtemp(bench.folder) != NULL, "no temporary folder");
   char inputs[sizeof bench.folder + 8];
   snprintf(inputs, sizeof inputs, "%s/inputs", bench.folder);
-  demand(symlink(GAMUT_DATA_DIR, inputs) == 0, "no link to the cards of the tree");
+  demand(symlink(GAMUT_DATA_DIR "/inputs", inputs) == 0, "no link to the cards of the tree");
   struct trace *trace = trace_new();
   bench.units = units_new(why, sizeof why);
   demand(bench.units != NULL, why);
