@@ -17,7 +17,7 @@ follows from there. Each figure is also held by `make check`. Made by
 
     GAMUT=build/gamut python3 docs/results/exact_solutions.py
 """
-PARTS = (("exact_flows.py", "Matter that flies apart or together"),
+PARTS = (("exact_flows.py", "Material that flies apart or together"),
          ("exact_points.py", "A point that tears or is heated; the axis"),
          ("exact_solutions.py", "Shells and bars"),
          ("exact_transfers.py", "Transfers and steps"))

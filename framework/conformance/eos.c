@@ -68,7 +68,7 @@ static void prove_wave(struct proof *proof, struct block *block, kernel_function
               most);
 }
 
-/* There is no matter at a compression of -1 or below: no number there is right. */
+/* There is no material at a compression of -1 or below: no number there is right. */
 static void prove_vacuum(struct proof *proof, struct block *block, kernel_function function)
 {
   static const double compression[] = {-1.0, -1.0 - 1e-15, -1.5, -1e3};

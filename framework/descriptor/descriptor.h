@@ -52,8 +52,8 @@
  *   requires: [plane]                  names in somebody's `provides`
  *   provides: [plane, points]          an elasticity: imposed_stress, where its step begins with
  *                                      the deviator of `stress`, so that effects may set it; an
- *                                      effect: opened_matter, where the eos will be asked for
- *                                      matter that is pulled apart
+ *                                      effect: opened_material, where the eos will be asked for
+ *                                      material that is pulled apart
  *   phases: [..]                       solver
  *   axis: {name: time, unit: s}        solver
  *   yields: moments                    estimator: what its runs are for. moments (unless stated):

@@ -38,8 +38,8 @@ static gamut_status check_imposed(const struct gamut_run *run, const struct runn
   return GAMUT_OK;
 }
 
-/* Calls the eos for matter that is pulled apart, up to ten times its volume, without energy. `word`
- * is the worst status. */
+/* Calls the eos for material that is pulled apart, up to ten times its volume, without energy.
+ * `word` is the worst status. */
 static gamut_status ask_opened(struct gamut_run *run, const struct material *material,
                                int64_t *word, double *compression)
 {
@@ -73,7 +73,7 @@ done:
   return status;
 }
 
-/* Matter that an effect opens is still handed to its eos, which may have no answer there. */
+/* Material that an effect opens is still handed to its eos, which may have no answer there. */
 static gamut_status check_opened(struct gamut_run *run, const struct running_effect *effect,
                                  bool *told)
 {
@@ -95,8 +95,8 @@ static gamut_status check_opened(struct gamut_run *run, const struct running_eff
     const struct message *message = status_message(eos, word);
     trace_warn_at(run->trace, asked->node ? &asked->node->place : NULL,
                   asked->node ? tree_path(asked->node, path, sizeof path) : NULL, NULL,
-                  "effect '%s' (%s) lets matter open, but %s of material '%s' stops a run in "
-                  "opened matter (at compression %.3g: %s)",
+                  "effect '%s' (%s) lets material open, but %s of material '%s' stops a run in "
+                  "opened material (at compression %.3g: %s)",
                   asked->name, asked->descriptor->id, eos->id, material->name, mu,
                   message ? message->text : "no message");
   }
@@ -119,7 +119,7 @@ gamut_status effects_check(struct gamut_run *run)
       if (imposes_stress(task, effect->label))
         TRY(check_imposed(run, effect));
     }
-    if (live && descriptor_provides(effect->effect->instance.descriptor, "opened_matter"))
+    if (live && descriptor_provides(effect->effect->instance.descriptor, "opened_material"))
       TRY(check_opened(run, effect, told));
   }
 done:

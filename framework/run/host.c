@@ -288,7 +288,7 @@ static void warn_left_behind(const struct gamut_run *run, const struct gamut_pla
   }
   if (all)
     trace_warn_at(run->trace, &effect->instance.node->place, NULL,
-                  "a normal towards the matter, a velocity against it",
+                  "a normal towards the material, a velocity against it",
                   "%s: every body moves away from this wall", run->creating->label);
 }
 

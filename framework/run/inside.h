@@ -180,7 +180,7 @@ gamut_status effects_create(struct gamut_run *);
 void effects_free(struct gamut_run *);
 gamut_status effects_resolve(struct gamut_run *);
 /* effects_check.c; after the plan: an effect that sets the stress needs elasticities that take it
- * up; one that opens matter is warned of where the eos stops there. */
+ * up; one that opens material is warned of where the eos stops there. */
 gamut_status effects_check(struct gamut_run *);
 /* Fields for the states of a plugin whose tasks are its own, not the descriptor's. */
 gamut_status declare_states(struct gamut_run *, const struct descriptor *);

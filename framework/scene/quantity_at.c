@@ -131,7 +131,7 @@ static void warn_outside(struct reading *reading, const struct tree *node,
   if (outside == 0)
     return;
   const bool space = quantity->follow_space;
-  const char *then = space                ? "there is no value until matter comes there"
+  const char *then = space                ? "there is no value until material comes there"
                      : places->count == 1 ? "the nearest point of the body is taken"
                                           : "the nearest points of the body are taken";
   if (places->count == 1)

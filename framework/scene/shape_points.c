@@ -53,7 +53,7 @@ static int by_place(const void *one, const void *other)
   return (a->row > b->row) - (a->row < b->row);
 }
 
-/* Two points at one place would be matter in matter. */
+/* Two points at one place would be material in material. */
 static bool points_differ(struct table_file *file, const struct shape_points *points)
 {
   struct seat *seat = scene_take(points->count, sizeof *seat);

@@ -27,7 +27,7 @@ def plugin(folder):
     for name, old, new in (
             ("short_step.yaml", "outputs: [sound_speed]", "outputs: [sound_speed, step_factor]"),
             ("short_step.yaml", "messages:\n",
-             'messages:\n  soft: {severity: warn, text: "this matter is soft"}\n'),
+             'messages:\n  soft: {severity: warn, text: "this material is soft"}\n'),
             ("short_step.c", "    b->volume_ratio[i] = j;",
              "    b->volume_ratio[i] = j;\n"
              "    b->step_factor[i] = b->time_step[i] > 30e-9 ? 0.5 : 1.0;\n"
@@ -59,11 +59,11 @@ def run_short_steps(scratch):
     report("ideal_gas" not in [p["id"].split("/")[1] for p in summary.get("plugins", [])] and
            "is not used" in answer.said, "an eos that the elasticity does not call is left aside",
            answer)
-    report(answer.said.count("this matter is soft") == 1, "and printed once", answer)
+    report(answer.said.count("this material is soft") == 1, "and printed once", answer)
     value = {name: q.get("value") for name, q in summary.get("quantities", {}).items()}
     report(value.get("of_matter") == 1.0 and value.get("in_space") == 1.0,
-           f"a quantity follows the matter, or stays in space: {value}")
-    report(value.get("beside", 0) is None, "where no matter is there is no value")
+           f"a quantity follows the material, or stays in space: {value}")
+    report(value.get("beside", 0) is None, "where no material is there is no value")
 
 
 def explained(*settings):

@@ -1,5 +1,5 @@
 """A law that is said to hold down to a tension limit has a real sound speed in all of that, however
-far the matter has opened and however hot it is; without one the message says what to do, with one
+far the material has opened and however hot it is; without one the message says what to do, with one
 no message advises it."""
 import json
 import math

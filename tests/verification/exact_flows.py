@@ -1,4 +1,4 @@
-"""Matter without strength that flies apart or together, evenly: its volume, the domains of its
+"""Material without strength that flies apart or together, evenly: its volume, the domains of its
 points, its size, and what a traction gives it (docs/theory/exact_solutions.md). Prints TAP."""
 import math
 
@@ -97,7 +97,8 @@ def test_flows():
         for shape in ("linear", "gimp", "quadratic", "cubic"):
             off, edges = volume(geometry, 1.0, shape, steps, start)
             # musl smooths the velocity once more; in a ring a cell over the radius, squared
-            scenes.below(f"matter that flies apart to twice its size, {geometry}, {shape}: volume "
+            scenes.below(f"material that flies apart to twice its size, {geometry}, {shape}: "
+                         "volume "
                          "ratio off by", off, 2e-3 if shape == "linear" else 3e-4)
             if shape == "gimp":
                 scenes.below(f"  the same, {geometry}: edges of the points' domains off by", edges,
@@ -114,7 +115,7 @@ def test_traction():
     for geometry in ("1d", "plane_strain", "axisymmetric"):
         for rate in (1.0, -0.5):
             share, row = pulled(geometry, rate, "gimp")
-            scenes.within(f"traction on matter that grows by {1 + rate:g}, {geometry}: impulse",
+            scenes.within(f"traction on material that grows by {1 + rate:g}, {geometry}: impulse",
                           share, 1.0, 0.5 * row)
 
 

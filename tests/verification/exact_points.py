@@ -66,10 +66,12 @@ def on_axis(shape):
 def test_points():
     for steps in (50, 100):
         share, gone, strain = torn(steps)
-        scenes.below(f"torn matter sheared on in {steps} steps: energy gained over the work of its "
+        scenes.below(f"torn material sheared on in {steps} steps: energy gained over the work of "
+                     "its "
                      "shear", share, strain)
     energy, gone, last = tears(400)
-    scenes.within("matter that tears keeps the strain energy that it had, and no more", energy, 1.0,
+    scenes.within("material that tears keeps the strain energy that it had, and no more", energy,
+                  1.0,
                   last)
     scenes.report(gone == 1.0, "  and has torn")
     for squeeze in (-0.5, 0.4):

@@ -166,7 +166,7 @@ def collapse(density, yield_stress, inner, outer, curved, speed, steps=4000):
 
 
 def collapse_strain(first, inner, stopped, curved):
-    """Plastic strain of matter that was at radius `first`."""
+    """Plastic strain of material that was at radius `first`."""
     n = curved
     now = (first ** (n + 1) - inner ** (n + 1) + stopped ** (n + 1)) ** (1.0 / (n + 1))
     return (2.0 / math.sqrt(3.0) if n == 1 else 2.0) * numpy.log(first / now)

@@ -148,7 +148,7 @@ class Figures:
         scenes.drop(result)
 
     def told(self, name):
-        self.momentum.told(f"{name}: momentum lost by the matter against the impulse on planes",
+        self.momentum.told(f"{name}: momentum lost by the material against the impulse on planes",
                            CLOSE)
         self.pull.told(f"{name}: pull of a wall over its largest push", CLOSE)
         self.residual.told(f"{name}: residual of the ledger", 1e-10)

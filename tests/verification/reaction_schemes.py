@@ -1,5 +1,5 @@
 """What walls and moving boundaries report, for every transfer, shape and order: the momentum given
-to the matter is the impulse on the planes, and a unilateral wall never pulls. Each scheme has one
+to the material is the impulse on the planes, and a unilateral wall never pulls. Each scheme has one
 of the scenes; reaction_schemes_fine.py has them all. Prints TAP."""
 import reaction_cases
 import scenes

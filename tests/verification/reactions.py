@@ -1,5 +1,5 @@
-"""What planes and walls report: momentum given to the matter against their impulse, the energy of
-the matter against their work, force against impulse, contact area. Prints TAP."""
+"""What planes and walls report: momentum given to the material against their impulse, the energy of
+the material against their work, force against impulse, contact area. Prints TAP."""
 import math
 import os
 
@@ -101,14 +101,14 @@ def check_force(name, result, effect, along, sign, scale):
 
 
 def check_work(name, result, effects):
-    """What planes report against the ledger, and what the matter has of it there."""
+    """What planes report against the ledger, and what the material has of it there."""
     lines = result.summary["ledger"]["energy"]["lines"]
     work = sum(series(result, f"{effect}_work")[-1] for effect in effects)
     scenes.below(f"{name}: work of the planes against the ledger's",
                  work / lines["planes"]["value"] - 1, CLOSE)
     part = {role: sum(line["value"] - line["start"] for line in lines.values()
                       if line["role"] == role) for role in ("stored", "lost")}
-    scenes.below(f"{name}: work less losses against the matter's energy",
+    scenes.below(f"{name}: work less losses against the material's energy",
                  (work - part["lost"] - part["stored"]) / work, CLOSE)
 
 

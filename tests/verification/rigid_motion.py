@@ -26,7 +26,7 @@ MODULUS, CELL = 1e6, 1e-3
 
 
 def far_plane(axis, place, axes):
-    """A symmetry plane that matter never meets: it says where the grid's nodes are."""
+    """A symmetry plane that material never meets: it says where the grid's nodes are."""
     point, normal = ["0 m"] * axes, ["0"] * axes
     point[axis], normal[axis] = f"{place!r} m", "1"
     return (f"  at_{'xyz'[axis]}: {{model: boundary, kind: symmetry, plane: "

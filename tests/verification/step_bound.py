@@ -1,5 +1,5 @@
-"""What bounds the time step: a run whose matter has no sound speed, or one that is no number, ends
-with exit 5 and names the point; a moving plane bounds the step as well. Prints TAP."""
+"""What bounds the time step: a run whose material has no sound speed, or one that is no number,
+ends with exit 5 and names the point; a moving plane bounds the step as well. Prints TAP."""
 import re
 
 import made
@@ -74,7 +74,7 @@ PISTON = (", piston: {model: boundary, kind: velocity, velocity: [-500 m/s], "
           "plane: {point: [10 mm], normal: [-1]}}" + SYMMETRY)
 folder = made.plugin("eos/mute", EOS, CODE)
 OWN = ("--plugin-path", folder)
-ends("no sound, but matter that flies", eos="model: mute, speed: 0 m/s",
+ends("no sound, but material that flies", eos="model: mute, speed: 0 m/s",
      body="velocity: [100 m/s]", extra=OWN)
 fails("no sound of a plugin", ["nothing bounds the time step"], eos="model: mute, speed: 0 m/s",
       extra=OWN)

@@ -96,7 +96,7 @@ scenes.report(code == 0 and WORDS not in out and isinstance(json.loads(out), dic
               and len(pairs_of(error)) == 1, "explain --json: the warning is not in the JSON")
 
 PLASTIC = "strength: {model: von_mises, yield_stress: 90 MPa}, "
-FLOWS = "does not converge where matter flows"
+FLOWS = "does not converge where material flows"
 for name, solver, strength, due in (
         ("linear", "shape: linear", PLASTIC, 1),
         ("linear, musl", "shape: linear, stress_update: musl", PLASTIC, 1),

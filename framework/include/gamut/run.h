@@ -120,21 +120,21 @@ enum gamut_plane_rule { GAMUT_PLANE_FREE, GAMUT_PLANE_MIRROR, GAMUT_PLANE_PRESCR
 
 struct gamut_plane {
   double point[3];
-  double normal[3];    /* unit, pointing to where matter may be */
+  double normal[3];    /* unit, pointing to where material may be */
   enum gamut_plane_rule normal_rule;
   enum gamut_plane_rule tangential_rule;
   double velocity[3];  /* of the plane, in space; the prescribed one */
-  bool unilateral;     /* true: matter may leave the plane (a wall) */
+  bool unilateral;     /* true: material may leave the plane (a wall) */
   double friction;     /* Coulomb's coefficient, where unilateral */
 };
 
 /* What a plane did, summed over the step just taken. Written by the solver, in a fixed order. */
 struct gamut_reaction {
-  double force[3]; /* on the plane by the matter, averaged over the step, N (per metre or radian as
-                      the geometry has it) */
-  double work;     /* done by the plane on the matter since the start, J */
+  double force[3]; /* on the plane by the material, averaged over the step, N (per metre or
+                      radian as the geometry has it) */
+  double work;     /* done by the plane on the material since the start, J */
   double area;     /* in contact, m2 */
-  double impulse[3]; /* on the plane by the matter since the start, N s */
+  double impulse[3]; /* on the plane by the material since the start, N s */
 };
 
 /* Removal: a service of solvers that let points leave the run. */
@@ -146,7 +146,7 @@ struct gamut_reaction {
 struct gamut_removal {
   bool flagged;  /* points at which a kernel says "stop" go as well; the run does not stop */
   bool lost;     /* so do points that the solver cannot place, or whose state is no number */
-  bool expected; /* that matter leaves is what the scene is made for: no warning */
+  bool expected; /* that material leaves is what the scene is made for: no warning */
   double most;   /* largest share of a body's mass at the start; beyond it the run stops. 0: all */
 };
 

@@ -12,7 +12,7 @@ static void viscosity(const struct artificial_viscosity *b)
     double linear = b->linear[i] * (closing > 0.0 ? c : 0.0);
     double quadratic = b->quadratic[i] * h * closing;
     b->viscous_pressure[i] = rho * h * closing * (linear + quadratic);
-    /* c x, the damping ratio x times c: stays finite in matter without sound speed. */
+    /* c x, the damping ratio x times c: stays finite in material without sound speed. */
     double damping = linear + 2.0 * quadratic;
     double square = 2.0 * damping * (damping + sqrt(c * c + damping * damping));
     b->omega_squared[i] += 4.0 / (h * h) * square;

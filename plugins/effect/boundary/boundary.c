@@ -89,7 +89,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   if (b == NULL)
     return GAMUT_INTERNAL;
   b->run = run;
-  gamut_status status = gamut_read_plane(run, values, "a direction towards the matter",
+  gamut_status status = gamut_read_plane(run, values, "a direction towards the material",
                                          b->plane.point, b->plane.normal);
   if (status == GAMUT_OK)
     status = add_kind(run, values, b);

@@ -27,7 +27,7 @@ static gamut_status read_plane(struct gamut_run *run, const struct gamut_values 
 {
   double point[3];
   const gamut_status status = gamut_read_plane(
-      run, values, "a direction towards the matter that stays", point, e->normal);
+      run, values, "a direction towards the material that stays", point, e->normal);
   for (size_t k = 0; k < 3; k++)
     e->level += point[k] * e->normal[k];
   return status;

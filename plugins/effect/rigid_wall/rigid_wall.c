@@ -16,7 +16,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   struct wall *wall = gamut_allocate(run, "rigid wall", sizeof *wall);
   if (wall == NULL)
     return GAMUT_INTERNAL;
-  gamut_status status = gamut_read_plane(run, values, "a direction towards the matter",
+  gamut_status status = gamut_read_plane(run, values, "a direction towards the material",
                                          plane.point, plane.normal);
   if (gamut_given(values, "velocity"))
     gamut_space_vector(values, "velocity", plane.velocity);

@@ -56,7 +56,7 @@ GAMUT_INLINE double cold(const struct hugoniot *h, double mu, double D, double D
 }
 
 /* Writes what follows from the law's pressure and slope. Between zero pressure and a stated limit
- * the part p G / (1 + mu)^2 of the sound speed is left out: as matter opens it takes any sound
+ * the part p G / (1 + mu)^2 of the sound speed is left out: as material opens it takes any sound
  * speed away, while the limit says that the law holds there. What is left is the slope that the
  * cut-off has. */
 GAMUT_INLINE void finish(const struct mie_gruneisen *b, size_t i, double pressure, double slope)

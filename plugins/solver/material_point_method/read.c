@@ -180,7 +180,7 @@ gamut_status model_read(struct model *m, const struct gamut_values *values)
 }
 
 /* Linear functions jump in their slope where points cross cells, and what that makes of the stress
- * does not fall with the cell where matter flows. */
+ * does not fall with the cell where material flows. */
 void model_warn(const struct model *m)
 {
   if (m->shape != SHAPE_LINEAR || m->order != ORDER_MUSL)
@@ -190,7 +190,7 @@ void model_warn(const struct model *m)
     if (strength == NULL)
       continue;
     gamut_warn(m->run,
-               "shape linear with musl does not converge where matter flows, as body '%s' "
+               "shape linear with musl does not converge where material flows, as body '%s' "
                "(strength %s) may: with smaller cells the length of a Taylor bar falls through its "
                "limit, by 1 to 2 %% at 20 cells in the radius. It is fast for a first look; "
                "figures take shape quadratic or cubic (docs/shapes_and_transfers.md)",

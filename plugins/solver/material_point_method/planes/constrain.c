@@ -34,7 +34,7 @@ static void fold(const struct plane *p, double *const line[3], int mass, int vec
   }
 }
 
-/* Whether the matter at the plane's node, left alone, would go into the plane. */
+/* Whether the material at the plane's node, left alone, would go into the plane. */
 static bool presses(const struct plane *p, const double *line, double step)
 {
   double speed = 0.0;
@@ -45,7 +45,8 @@ static bool presses(const struct plane *p, const double *line, double step)
   return speed < 0.0;
 }
 
-/* Whether matter in contact is still pressed: the sign of the impulse that the plane would give. */
+/* Whether material in contact is still pressed: the sign of the impulse that the plane would give.
+ */
 static bool pressed(const struct plane *p, double *const line[3], double step)
 {
   const double *before = line[BEFORE], *behind = line[BEHIND];
@@ -172,7 +173,7 @@ static void fit(const struct plane *p, double v[3])
   }
 }
 
-/* The condition at one node, on the velocity after the step, and on that before it unless matter
+/* The condition at one node, on the velocity after the step, and on that before it unless material
  * just arrives. True in contact. */
 static bool hold(const struct plane *p, double *line, const double force[3], double step,
                  bool arrives)
@@ -193,9 +194,9 @@ static bool hold(const struct plane *p, double *line, const double force[3], dou
   return true;
 }
 
-/* Matter that arrives is stopped: the velocity before the step is what it was without the plane. At
- * a plane that always holds, only if the matter really flies at it; velocity that grows from the
- * plane on is in order. */
+/* Material that arrives is stopped: the velocity before the step is what it was without the plane.
+ * At a plane that always holds, only if the material really flies at it; velocity that grows from
+ * the plane on is in order. */
 static void stop_arrival(struct model *m, const struct plane *p, const struct column *c)
 {
   const struct touched *on = &m->planes.touched[c->touched[ON]];

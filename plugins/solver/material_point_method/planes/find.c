@@ -56,7 +56,7 @@ gamut_status planes_add(struct model *m, const struct gamut_plane *given,
                               : given->tangential_rule == GAMUT_PLANE_PRESCRIBED);
   ps->any_moves |= p->moves;
   ps->fastest = fmax(ps->fastest, fabs(dot(given->velocity, given->normal)));
-  /* planes that matter cannot leave come first: what they fold away, a wall then does not see */
+  /* planes that material cannot leave come first: what they fold away, a wall then does not see */
   size_t at = ps->count++;
   while (at > 0 && !given->unilateral && ps->plane[at - 1]->given.unilateral) {
     ps->plane[at] = ps->plane[at - 1];

@@ -1,8 +1,8 @@
 /* Planes: what walls, symmetry and prescribed velocities do to the grid.
  *
  * A plane at rest whose normal lies along an axis falls on a plane of nodes. With shapes
- * that reach beyond a cell (all but linear) it is then made by images: matter behind it is the
- * mirror image of the matter before it, so the sums of the node one behind are added to those of
+ * that reach beyond a cell (all but linear) it is then made by images: material behind it is the
+ * mirror image of the material before it, so the sums of the node one behind are added to those of
  * the node one before (what is odd with its sign turned), and after the update the node behind gets
  * the image of the velocity. With linear shapes, for a plane that moves along its normal and for an
  * oblique one the condition holds node by node, at the nodes on or behind the plane. */
@@ -58,7 +58,7 @@ struct touched {
   double given[3]; /* momentum that planes gave the points here in this step */
   int8_t owner[3]; /* plane that its impulse is booked to, by component */
   int8_t first;    /* the first plane that touches it */
-  bool image;      /* of another node, by a plane that matter cannot leave */
+  bool image;      /* of another node, by a plane that material cannot leave */
 };
 
 struct plane {
@@ -87,9 +87,10 @@ struct planes {
   size_t touches, touched_capacity;
   int32_t *of_node; /* numbers of touched nodes, or -1, of the blocks that have some */
   size_t of_nodes, of_node_capacity;
-  double work, loss; /* by moving planes on the matter, and by impact and friction, in this step */
-  /* what planes gave in this step, and moments of it about the origin, by the sign: the matter of a
-   * box at rest is pushed from both sides, and the sum of that is all rounding */
+  double work,
+      loss; /* by moving planes on the material, and by impact and friction, in this step */
+  /* what planes gave in this step, and moments of it about the origin, by the sign: the material of
+   * a box at rest is pushed from both sides, and the sum of that is all rounding */
   double forward[3], backward[3], round[3], back_round[3];
 };
 
@@ -111,7 +112,7 @@ gamut_status planes_book(struct model *, double step);
  * points get by `weight`. */
 void planes_before_pass(struct model *);
 void planes_book_pass(struct model *, double weight);
-/* When all is given: a wall that matter may leave takes back what it pulled; then each plane's
+/* When all is given: a wall that material may leave takes back what it pulled; then each plane's
  * reaction. */
 void planes_report(struct model *, double step);
 /* reaction.c: the area in contact, begun anew in each step, by the nodes that are. */
@@ -120,7 +121,7 @@ void contact_see(const struct model *, struct plane *, const struct touched *);
 void contact_add(const struct model *, struct plane *, const struct touched *);
 /* Line of the touched node of that number; null for -1. */
 double *touched_line(const struct model *, int32_t touched);
-/* Signed distance of a place from a plane, positive where matter may be. */
+/* Signed distance of a place from a plane, positive where material may be. */
 double plane_distance(const struct plane *, const double x[3], double time);
 
 #endif

@@ -1,4 +1,4 @@
-"""An effect that opens matter is warned of where the eos of that matter stops a run; once a
+"""An effect that opens material is warned of where the eos of that material stops a run; once a
 material, at check, explain and run alike, and not in the exit code."""
 import os
 import tempfile
@@ -19,7 +19,7 @@ bodies:
 effects:
   torn: {{model: spall, limit: 1 GPa{only}}}
 """
-SAID = "lets matter open, but eos/mie_gruneisen of material"
+SAID = "lets material open, but eos/mie_gruneisen of material"
 LIMIT = ", tension_limit: -1 GPa"
 CASES = [("two bodies of one copper without a limit", "", "al", "", ["'cu'"]),
          ("copper and steel without limits", "", "st", "", ["'cu'", "'st'"]),
