@@ -242,7 +242,7 @@ def family(row):
 
 
 def without_repeats(rows):
-    """Rows that differ only in the name of a component are told once."""
+    """Rows that differ only in the name of a component are listed once."""
     told = {}
     for row in rows:
         key, name = family(row)

@@ -34,7 +34,7 @@ static void list_tables(const struct registry *registry)
   size_t count = registry_count(registry);
   int width = longest(registry);
   if (count == 0)
-    puts("no plugins are installed; 'gamut list --paths' tells where was looked");
+    puts("no plugins are installed; 'gamut list --paths' shows where was looked");
   for (size_t first = 0; first < count; ++first) {
     const struct descriptor *home = registry_at(registry, first);
     size_t earlier = 0;

@@ -95,7 +95,7 @@ void help_all(FILE *out)
 #define HELP_CODE(name, code, text) fprintf(out, "  %2d  %s\n", code, text);
   GAMUT_STATUS_LIST(HELP_CODE)
 #undef HELP_CODE
-  fputs("\n'gamut help COMMAND' tells more about one command.\n", out);
+  fputs("\n'gamut help COMMAND' says more about one command.\n", out);
 }
 
 bool help_command(const char *name, FILE *out)

@@ -155,7 +155,7 @@ int main(int argc, char **argv)
     return GAMUT_INTERNAL;
   }
   signal(SIGPIPE, SIG_DFL);
-  signal(SIGXFSZ, SIG_IGN); /* the write then fails, and is told as any other */
+  signal(SIGXFSZ, SIG_IGN); /* the write then fails, and is reported as any other */
   guard_install(GUARD_CALL_SECONDS);
   gsl_set_error_handler_off();
   quiet_hdf5();

@@ -1,5 +1,5 @@
 /* What a law depends on: every parameter moves something, every input that moves its result has a
- * slope, and the result has no jump that nobody is told of. */
+ * slope, and the result has no jump that no message reports. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -188,7 +188,7 @@ static void prove_jumps(struct suite *suite, size_t result, size_t argument, con
   if (worst > 1e-6)
     snprintf(label, sizeof label, " (at %s = %.9g)", name, place);
   check_figure(&suite->proof->checks, worst, 1e-6,
-               "jumps of %s along %s that no message tells, relative%s",
+               "jumps of %s along %s that no message reports, relative%s",
                suite->proof->slot[result].name, name, label);
 }
 

@@ -123,7 +123,7 @@ void prove_scene(struct proof *proof)
 void prove_solver(struct proof *proof)
 {
   const struct descriptor *d = proof->descriptor;
-  check_that(&proof->checks, d->axis != NULL, "the solver says along which axis it marches");
+  check_that(&proof->checks, d->axis != NULL, "the solver says along which axis it advances");
   check_that(&proof->checks, d->phases > 0, "the solver lists its phases");
   prove_scene(proof);
 }

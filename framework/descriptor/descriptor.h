@@ -57,7 +57,7 @@
  *   phases: [..]                       solver
  *   axis: {name: time, unit: s}        solver
  *   yields: moments                    estimator: what its runs are for. moments (unless stated):
- *                                      they are a sample, and `report` tells mean and variance;
+ *                                      they are a sample, and `report` gives mean and variance;
  *                                      table: each stands for itself
  *   measures:                          what a quantity can be
  *     pressure: {unit: Pa, at: point, formula: "-(stress_xx + stress_yy + stress_zz) / 3", doc: ..}

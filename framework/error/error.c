@@ -22,13 +22,13 @@ struct trace {
   pthread_mutex_t lock;
   struct message *message;
   size_t count, room;
-  size_t seen[3], kept[3], told[3]; /* by message_kind: all, with their words, told to be missing */
+  size_t seen[3], kept[3], told[3]; /* by message_kind: all, with their words, reported missing */
   gamut_status worst;
 };
 
 struct trace *trace_new(void)
 {
-  enum { FIRST_ROOM = 16 }; /* the end of memory can be told */
+  enum { FIRST_ROOM = 16 }; /* the end of memory can be reported */
   struct trace *trace = calloc(1, sizeof *trace);
   struct message *message = calloc(FIRST_ROOM, sizeof *message);
   if (trace == NULL || message == NULL || pthread_mutex_init(&trace->lock, NULL) != 0) {

@@ -7,7 +7,7 @@
 enum { WORD_MAX = 64 };
 
 /* Lower case without '-', '_' and ' '. Returns the length; words beyond WORD_MAX are cut, which is
- * more than enough to tell a slip of the finger. */
+ * more than enough to recognise a slip of the finger. */
 static size_t fold(const char *word, char folded[WORD_MAX])
 {
   size_t length = 0;

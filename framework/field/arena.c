@@ -33,7 +33,7 @@ struct arena {
 };
 
 /* Linux promises more memory than there is and kills who uses it: what cannot fit is not asked
- * for. What it can give without pushing others out is known where the kernel tells it. */
+ * for. What it can give without pushing others out is known where the kernel says it. */
 static size_t memory_of_machine(void)
 {
   long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);

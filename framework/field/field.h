@@ -47,7 +47,7 @@ struct field *fields_of_component(const struct fields *, size_t component);
 /* "velocity_y" or "stress_xx" or "pressure": field and component; null if there is none. */
 struct field *fields_component(const struct fields *, const char *name, unsigned *component);
 
-/* Memory that counts. Every array of a run comes from here, so `explain` tells what is allocated.
+/* Memory that counts. Every array of a run comes from here, so `explain` shows what is allocated.
  */
 struct arena;
 struct arena *arena_new(void);

@@ -28,13 +28,13 @@ struct history {
  */
 struct history *history_new(const struct quantity *, double end);
 void history_free(struct history *);
-/* Tells the value now; called at the start and after every step, in order of time. Takes memory
+/* Records the value now; called at the start and after every step, in order of time. Takes memory
  * only where every step is kept or the end is not known. */
 void history_tell(struct history *, double time, double value, bool final);
 
 /* Makes a fresh history go on from `count` samples of another run. Its sampling is kept where `end`
- * has moved, so `every` is that of the other run. The caller sets what was told last. False without
- * memory. */
+ * has moved, so `every` is that of the other run. The caller sets what was recorded last. False
+ * without memory. */
 bool history_go_on(struct history *, double end, double every, const double *time,
                    const double *value, size_t count);
 

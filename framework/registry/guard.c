@@ -189,7 +189,7 @@ static _Noreturn void end_by_plugin(const char *plugin, const char *what, const 
   say("\n  results and the last checkpoint, if any, are kept as they were before; "
       "`gamut verify ");
   say(plugin);
-  say("` tells more\n");
+  say("` says more\n");
   _exit(GAMUT_PLUGIN);
 }
 

@@ -35,7 +35,7 @@ void guard_install(int call_seconds);
 void guard_obey(const volatile sig_atomic_t *stop);
 /* The program comes to its end by itself: exit() is no longer a fault. */
 void guard_finish(void);
-/* Undoes the handlers in a child process that tells crashes by itself. */
+/* Undoes the handlers in a child process that reports crashes by itself. */
 void guard_forget(void);
 
 #endif

@@ -1,5 +1,5 @@
 /* Where an installed gamut is now: its tree may have been moved, or installed to another prefix
- * than configure was told. */
+ * than configure was given. */
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>

@@ -276,7 +276,7 @@ static gamut_status check_operations(struct entry *entry, const char *file, cons
   return GAMUT_OK;
 }
 
-/* Calls that end or replace the program where nothing can tell whose they were. exit() and abort()
+/* Calls that end or replace the program where nothing can say whose they were. exit() and abort()
  * are named when they happen. */
 static void take_ending(void *self, const char *name)
 {

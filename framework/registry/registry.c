@@ -20,7 +20,7 @@ static void entry_free(struct entry *entry)
   free(entry);
 }
 
-/* Kind and name of .../KIND/NAME/NAME.yaml, for a file that does not tell itself. */
+/* Kind and name of .../KIND/NAME/NAME.yaml, for a file that does not say it itself. */
 static bool name_from_path(struct entry *entry)
 {
   char path[PATH_MAX];
@@ -190,7 +190,7 @@ struct entry *registry_entry(const struct registry *registry, const struct descr
   return NULL;
 }
 
-/* A plugin whose YAML was skipped: now that somebody wants it, its faults are told. */
+/* A plugin whose YAML was skipped: now that somebody wants it, its faults are reported. */
 static bool tell_faults(const struct registry *registry, const char *kind, const char *name,
                         struct trace *trace)
 {

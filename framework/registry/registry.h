@@ -20,7 +20,7 @@ struct registry;
  * else may write; others are skipped with a warning (the build tree of the running program may be
  * shared with a group). The first of two plugins with one id wins; the shadowed one is noted if it
  * is another edition (version, interface). A plugin whose YAML has faults is skipped with a
- * warning; where a scene names it, its faults are told.
+ * warning; where a scene names it, its faults are reported.
  *
  * Below such a folder a plugin is KIND/NAME/NAME.yaml, NAME/NAME.yaml or NAME.yaml, with its shared
  * objects beside it or in .libs there. The build tree keeps the two apart: a file `plugins.path` in
@@ -71,7 +71,7 @@ const char *registry_level(const struct registry *, const struct descriptor *);
 /* The file that was opened, or would be; false if there is none. */
 bool registry_object(const struct registry *, const struct descriptor *, char *file, size_t size);
 bool registry_is_open(const struct registry *, const struct descriptor *);
-/* Where a folder that was to be installed at `folder` (as the build was told) stands beside a
+/* Where a folder that was to be installed at `folder` (as the build was configured) stands beside a
  * program that runs in the folder `program`: "PREFIX/lib/gamut/plugins" for
  * "/usr/lib/gamut/plugins" and "PREFIX/bin". False where the program does not stand in a folder of
  * programs. */

@@ -14,7 +14,7 @@ struct progress {
   double end, started;
   const char *unit;
   bool terminal, open; /* open: the line on the terminal has no end yet */
-  int tenth;           /* the last one told */
+  int tenth;           /* the last one printed */
 };
 
 static double now(void)

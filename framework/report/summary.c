@@ -143,7 +143,7 @@ static void write_quantities(json_t *quantities, FILE *file)
   }
 }
 
-/* An account is told by how well it closes; its parts are in summary.json. */
+/* An account is printed by how well it closes; its parts are in summary.json. */
 static void write_ledger(json_t *ledger, FILE *file)
 {
   const char *account;

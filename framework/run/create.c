@@ -278,7 +278,7 @@ static gamut_status assemble(struct gamut_run *run)
   gamut_status status;
   const struct descriptor *solver = run->scene->solver.descriptor;
   run->schedule = schedule_new(solver->phase, solver->phases);
-  TRY(chance_open(run));
+  TRY(random_open(run));
   TRY(bind_materials(run));
   TRY(create_solver(run));
   TRY(check_sets(run));
@@ -373,7 +373,7 @@ void run_free(struct gamut_run *run)
     material_free(run->material[m]);
   for (size_t s = 0; run->set && s < run->scene->bodies; s++)
     set_free(run->set[s]);
-  chance_free(run);
+  random_free(run);
   for (size_t i = 0; i < run->jobs; i++)
     free(run->job[i]);
   schedule_free(run->schedule);

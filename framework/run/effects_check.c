@@ -75,7 +75,7 @@ done:
 
 /* Material that an effect opens is still handed to its eos, which may have no answer there. */
 static gamut_status check_opened(struct gamut_run *run, const struct running_effect *effect,
-                                 bool *told)
+                                 bool *warned)
 {
   gamut_status status = GAMUT_OK;
   const struct instance *asked = &effect->effect->instance;
@@ -86,10 +86,10 @@ static gamut_status check_opened(struct gamut_run *run, const struct running_eff
     int64_t word = 0;
     double mu = 0.0;
     char path[256] = "";
-    if (told[m] || !effect->effect->on_body[b] || !eos)
+    if (warned[m] || !effect->effect->on_body[b] || !eos)
       continue;
     TRY(ask_opened(run, material, &word, &mu));
-    told[m] = true;
+    warned[m] = true;
     if (status_severity(word) != GAMUT_STOP)
       continue;
     const struct message *message = status_message(eos, word);
@@ -107,8 +107,8 @@ done:
 gamut_status effects_check(struct gamut_run *run)
 {
   gamut_status status = GAMUT_OK;
-  bool *told = calloc(run->scene->materials + 1, sizeof *told);
-  if (!told)
+  bool *warned = calloc(run->scene->materials + 1, sizeof *warned);
+  if (!warned)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t e = 0; e < run->effects; e++) {
     struct running_effect *effect = &run->effect[e];
@@ -120,9 +120,9 @@ gamut_status effects_check(struct gamut_run *run)
         TRY(check_imposed(run, effect));
     }
     if (live && descriptor_provides(effect->effect->instance.descriptor, "opened_material"))
-      TRY(check_opened(run, effect, told));
+      TRY(check_opened(run, effect, warned));
   }
 done:
-  free(told);
+  free(warned);
   return status;
 }

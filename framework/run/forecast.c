@@ -19,14 +19,14 @@ bool forecast_steps(struct gamut_run *run, struct forecast *f)
 {
   bool more = true;
   *f = (struct forecast){0};
-  if (march_start(run) != GAMUT_OK)
+  if (advance_start(run) != GAMUT_OK)
     return false;
   if (run->solver->describe)
     run->solver->describe(run->solver_self, &f->step, f->limit, sizeof f->limit);
   double begun = now();
   int taken = 0;
   while (more && taken < TRIAL_STEPS) {
-    if (march_step(run, &more) != GAMUT_OK)
+    if (advance_step(run, &more) != GAMUT_OK)
       return false;
     taken += more;
   }
@@ -65,7 +65,7 @@ gamut_status run_check(struct gamut_run *run, struct trace *trace)
     return GAMUT_OK;
   }
   TRY(run_start(run, trace));
-  TRY(march_first_step(run, &step));
+  TRY(advance_first_step(run, &step));
   warn_long(run, trace);
 done:
   return status;

@@ -213,7 +213,7 @@ static gamut_status host_start_material(struct gamut_run *run, struct gamut_set 
   struct point_set *set = set_inside(open);
   struct bound_material *material = run->material[set->material];
   struct gamut_chunk chunk = {.set = open};
-  TRY(chance_scatter(run, set));
+  TRY(random_scatter(run, set));
   TRY(material_initial(material, set, &run->scene->body[open->index], run->trace));
   for (size_t slot = 0; slot < open->slots; slot += run->chunk) {
     size_t count = open->slots - slot < run->chunk ? open->slots - slot : run->chunk;

@@ -76,7 +76,7 @@ static gamut_status place_values(struct gamut_run *run, struct gamut_law *law,
     if (pointwise_varies(points, k))
       good = (number[k] = calloc(law->count + 1, sizeof(double))) != NULL;
   if (good)
-    status = chance_draw(run, points, values, law->count, position, id, number);
+    status = random_draw(run, points, values, law->count, position, id, number);
   else
     status = trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t k = 0; number && k < values->count; k++) {

@@ -1,4 +1,4 @@
-/* Points that leave a run: effects ask for it, the solver does it, and people are told. */
+/* Points that leave a run: effects ask for it, the solver does it, and it is reported. */
 #include <math.h>
 #include <string.h>
 

@@ -107,7 +107,7 @@ struct gamut_run {
   struct material_job **job;
   size_t jobs;
   struct gamut_law *law;            /* laws of the solver's own, a list */
-  struct chance *chance;            /* random fields that were asked for, a list */
+  struct sampled_field *sampled_field; /* random fields that were asked for, a list */
   struct leaving *leaving;          /* effects that take points out, a list */
   struct spare spare;               /* where flagged points go in place of a stop */
   struct lane_scratch **scratch;
@@ -157,18 +157,19 @@ void host_laws_free(struct gamut_run *);
 /* After the solver's start: whether every random field of a law's parameters was asked for. */
 gamut_status host_laws_check(struct gamut_run *);
 
-/* host_chance.c */
-gamut_status chance_open(struct gamut_run *);
-void chance_free(struct gamut_run *);
+/* host_random.c */
+gamut_status random_open(struct gamut_run *);
+void random_free(struct gamut_run *);
 /* Draws the parameters that differ from point to point, at these points: number[k] is an array of
  * parameter k's numbers, null where it does not differ. */
-gamut_status chance_draw(struct gamut_run *, const struct pointwise *, const struct values *,
+gamut_status random_draw(struct gamut_run *, const struct pointwise *, const struct values *,
                          size_t count, const double *const position[3], const int64_t *id,
                          double *const *number);
 /* Random field `index` that was made: what varies and its plugin; false past the end. */
-bool chance_at(const struct gamut_run *, size_t index, const char **path, const char **plugin);
+bool random_field_at(const struct gamut_run *, size_t index, const char **path,
+                     const char **plugin);
 /* Fills the stored fields of such parameters of a set's material and of effects. */
-gamut_status chance_scatter(struct gamut_run *, const struct point_set *);
+gamut_status random_scatter(struct gamut_run *, const struct point_set *);
 
 /* host_removal.c: from the first step on flagged points may leave. */
 void removal_start(struct gamut_run *);
@@ -192,7 +193,7 @@ gamut_status formula_plain(struct gamut_run *, const char *component, struct for
 double formula_value(struct formula *, const struct gamut_run *, const struct point_set *,
                      size_t slot);
 void formula_free(struct formula *);
-/* Tells the scheduler which fields it reads; see schedule_want. */
+/* Names to the scheduler which fields it reads; see schedule_want. */
 void formula_want(const struct formula *, struct gamut_run *, size_t set, const char *why,
                   const struct place *);
 /* Declares what a text names of the vocabulary. */
@@ -203,7 +204,7 @@ gamut_status formula_declare(struct gamut_run *, const char *text);
 void given_mark(struct gamut_run *);
 void given_fill(struct gamut_run *);
 
-/* wants.c: tells the scheduler of the fields that a quantity's argument `field` needs. */
+/* wants.c: names to the scheduler the fields that a quantity's argument `field` needs. */
 /* Leaves in `derived` the formula of the measure of points that the argument `field` names. */
 gamut_status wants_of_arguments(struct gamut_run *, const struct quantity *, const char *why,
                                 struct formula *derived);
@@ -213,7 +214,7 @@ gamut_status wants_derive(struct gamut_run *, const char *name, bool *derived);
 /* observe.c */
 gamut_status observe_create(struct gamut_run *);
 gamut_status observe_start(struct gamut_run *); /* after the solver has started */
-/* Whether a sample falls into the step from the present time; tells the values of its beginning. */
+/* Whether a sample falls into the step from the present time; records values of its beginning. */
 gamut_status observe_before(struct gamut_run *, double step, bool *due);
 gamut_status observe_after(struct gamut_run *, bool due, bool final);
 void observe_free(struct gamut_run *);
@@ -251,12 +252,12 @@ struct forecast {
 };
 bool forecast_steps(struct gamut_run *, struct forecast *);
 
-/* march.c */
-gamut_status march_start(struct gamut_run *);
+/* advance.c */
+gamut_status advance_start(struct gamut_run *);
 /* How long the first step would be, without taking it. */
-gamut_status march_first_step(struct gamut_run *, double *step);
+gamut_status advance_first_step(struct gamut_run *, double *step);
 /* One step; false in *more at the end of the run. */
-gamut_status march_step(struct gamut_run *, bool *more);
+gamut_status advance_step(struct gamut_run *, bool *more);
 
 /* stop.c */
 /* A body's velocity is arithmetic in space, which may have no value somewhere. */

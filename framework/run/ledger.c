@@ -175,7 +175,7 @@ gamut_status ledger_check(struct gamut_run *run)
       continue;
     if (strcmp(line->account, "energy") == 0)
       TRY(check_growth(run, &run->balance[i]));
-    /* Moments about an origin are small differences of large ones: told, not judged. */
+    /* Moments about an origin are small differences of large ones: printed, not judged. */
     if (strncmp(line->account, "angular_momentum", strlen("angular_momentum")) != 0)
       TRY(check_residual(run, line));
   }

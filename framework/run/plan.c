@@ -79,11 +79,11 @@ static json_t *off_json(const struct gamut_run *run)
   return all;
 }
 
-static json_t *chance_json(const struct gamut_run *run)
+static json_t *random_fields_json(const struct gamut_run *run)
 {
   json_t *all = json_object();
   const char *path, *plugin;
-  for (size_t i = 0; chance_at(run, i, &path, &plugin); i++)
+  for (size_t i = 0; random_field_at(run, i, &path, &plugin); i++)
     json_object_set_new(all, path, json_string(plugin));
   return all;
 }
@@ -109,14 +109,14 @@ static json_t *plugins_json(const struct gamut_run *run)
   return all;
 }
 
-static void tell_forecast(const struct gamut_run *run, bool good, const struct forecast *f,
-                          struct run_forecast *told)
+static void give_forecast(const struct gamut_run *run, bool good, const struct forecast *f,
+                          struct run_forecast *forecast)
 {
-  if (told)
-    *told = (struct run_forecast){good, f->steps, f->seconds, run_cost_of(run).bytes};
+  if (forecast)
+    *forecast = (struct run_forecast){good, f->steps, f->seconds, run_cost_of(run).bytes};
 }
 
-char *run_explain_json(struct gamut_run *run, struct run_forecast *told)
+char *run_explain_json(struct gamut_run *run, struct run_forecast *forecast)
 {
   struct forecast f;
   size_t stored;
@@ -124,7 +124,7 @@ char *run_explain_json(struct gamut_run *run, struct run_forecast *told)
   struct run_cost cost = run_cost_of(run);
   bool good = forecast_steps(run, &f);
   struct run_cost after = run_cost_of(run);
-  tell_forecast(run, good, &f, told);
+  give_forecast(run, good, &f, forecast);
   json_t *root = json_object();
   json_object_set_new(root, "scene", json_string(run->scene->file));
   json_object_set_new(root, "solver", json_string(run->scene->solver.descriptor->id));
@@ -134,7 +134,7 @@ char *run_explain_json(struct gamut_run *run, struct run_forecast *told)
   json_object_set_new(root, "fields", fields_json(run));
   json_object_set_new(root, "points", json_integer((json_int_t)cost.points));
   json_object_set_new(root, "declared_bytes_per_point", json_integer((json_int_t)declared));
-  json_object_set_new(root, "random_fields", chance_json(run));
+  json_object_set_new(root, "random_fields", random_fields_json(run));
   json_object_set_new(root, "memory", memory_json(run));
   json_object_set_new(root, "bytes", json_integer((json_int_t)after.bytes));
   json_object_set_new(root, "bytes_per_point", json_real(after.bytes_per_point));
@@ -217,10 +217,10 @@ static void print_fields(const struct gamut_run *run, FILE *file)
   }
 }
 
-static void print_chance(const struct gamut_run *run, FILE *file)
+static void print_random_fields(const struct gamut_run *run, FILE *file)
 {
   const char *path, *plugin;
-  for (size_t i = 0; chance_at(run, i, &path, &plugin); i++)
+  for (size_t i = 0; random_field_at(run, i, &path, &plugin); i++)
     fprintf(file, "%s    %-26s %s\n", i ? "" : "\nrandom fields\n", path, plugin);
 }
 
@@ -237,7 +237,7 @@ static void print_memory(const struct gamut_run *run, size_t declared, FILE *fil
           "together", cost.bytes, cost.bytes_per_point, declared);
 }
 
-void run_explain(struct gamut_run *run, FILE *file, struct run_forecast *told)
+void run_explain(struct gamut_run *run, FILE *file, struct run_forecast *forecast)
 {
   struct forecast f;
   size_t stored;
@@ -253,8 +253,8 @@ void run_explain(struct gamut_run *run, FILE *file, struct run_forecast *told)
   print_off(run, file);
   print_fields(run, file);
   bool good = forecast_steps(run, &f);
-  tell_forecast(run, good, &f, told);
-  print_chance(run, file);
+  give_forecast(run, good, &f, forecast);
+  print_random_fields(run, file);
   print_memory(run, declared_bytes(run, &stored), file);
   if (!good)
     return;

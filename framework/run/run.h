@@ -1,4 +1,4 @@
-/* One run of one scene: makes the instances, plans, marches, records. */
+/* One run of one scene: makes the instances, plans, advances, records. */
 #ifndef GAMUT_RUN_ROOM_H
 #define GAMUT_RUN_ROOM_H
 
@@ -24,8 +24,8 @@ struct run_options {
    * store is open and run_can_stop) and the last frame are written, and run_march returns
    * GAMUT_STOPPED without an error in the trace; the summary then says "status": "interrupted". */
   const volatile sig_atomic_t *stop;
-  /* What chance in the run hangs on: the scene's seed (0: as scene->seed), and which run of a study
-   * this is, from 0. */
+  /* What random numbers of the run depend on: the scene's seed (0: as scene->seed), and which run
+   * of a study this is, from 0. */
   uint64_t seed, realisation;
 };
 
@@ -78,9 +78,9 @@ double run_time(const struct gamut_run *);
 char *run_summary(const struct gamut_run *, gamut_status, const struct registry *);
 /* `gamut explain`: for people, or JSON. Needs run_new only. */
 struct run_forecast { bool known; double steps, seconds; size_t bytes; };
-/* `told`, which may be null, gets what the run would cost. */
-void run_explain(struct gamut_run *, FILE *, struct run_forecast *told);
-char *run_explain_json(struct gamut_run *, struct run_forecast *told);
+/* `forecast`, which may be null, gets what the run would cost. */
+void run_explain(struct gamut_run *, FILE *, struct run_forecast *forecast);
+char *run_explain_json(struct gamut_run *, struct run_forecast *forecast);
 
 struct ledger_line {
   char *account, *name, *unit; enum gamut_ledger_role role; double value, start;

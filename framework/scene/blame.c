@@ -50,11 +50,11 @@ static void record(struct reading *reading, const struct tree *node, bool at_key
   char words[WORDS_SIZE], own[PATH_SIZE] = "";
   const struct tree *shown = node ? node : reading->here;
   const struct place *place = NULL;
-  const bool told = !trace_is_full(reading->trace);
+  const bool shown_path = !trace_is_full(reading->trace);
   vsnprintf(words, sizeof words, format, list);
   if (shown) {
     place = at_key || !node ? &shown->key_place : &shown->place;
-    if (told) /* a path counts the items of lists */
+    if (shown_path) /* a path counts the items of lists */
       tree_path(shown, own, sizeof own);
   }
   if (!path && own[0])

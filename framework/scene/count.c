@@ -29,7 +29,7 @@ bool every_within(struct reading *reading, const struct tree *node, const char *
   const struct instance *solver = &reading->scene->solver;
   const double whole = axis_length(reading);
   if (!solver->descriptor || (!(whole > 0) && values_find(solver->values, "end")))
-    return true; /* what is wrong is told already */
+    return true; /* what is wrong is reported already */
   if (whole > 0)
     return count_within(reading, node, what, whole, every, most);
   return count_within(reading, node, what, 1.0, every, A_UNIT_MOST);

@@ -207,7 +207,7 @@ static bool is_circular(struct reading *reading, const char *file, const char *r
 static bool is_one_too_many(struct reading *reading, const struct tree *item, struct chain *chain)
 {
   if (chain->files > INCLUDES_MAX)
-    return true; /* told once */
+    return true; /* reported once */
   if (chain->files++ < INCLUDES_MAX)
     return false;
   blame_value(reading, item, "do files include each other several times?",

@@ -272,7 +272,7 @@ static bool in_use(const struct scene *scene, size_t material)
   return found;
 }
 
-/* Whether all that was given could be read: what follows from a fault is not told as one more. */
+/* Whether all that was given could be read: what follows from a fault is no fault. */
 static bool understood(const struct instance *instance)
 {
   const struct values *values = instance->values;

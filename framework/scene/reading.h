@@ -130,7 +130,7 @@ bool has_name(const char *const *name, size_t count, const char *wanted);
 /* One value. */
 
 bool unit_is_pure(const char *unit);
-/* A number in SI from a scalar; faults are told at the node. */
+/* A number in SI from a scalar; faults are reported at the node. */
 bool amount_read(struct reading *, const struct tree *, const char *name, const char *unit,
                  double *value);
 /* The same for a difference of two such quantities: 20 degC are 20 K. */

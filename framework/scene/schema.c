@@ -254,7 +254,7 @@ static json_t *body_schema(const struct registry *registry)
   return object(properties, true);
 }
 
-/* An interval of what the solver marches along: time with its unit, or a pure number. */
+/* An interval of what the solver advances along: time with its unit, or a pure number. */
 static json_t *along_axis(void)
 {
   return json_pack("{s:[o, o]}", "anyOf", reference("quantity"), reference("number"));

@@ -65,7 +65,7 @@ void schedule_declined_at(const struct schedule *, size_t index, const char **ow
 
 /* Runs one step: every sweep in order, sets and blocks in parallel, bits independent of the number
  * of threads. Returns the failure of the lowest block. */
-struct march {                /* what a step works on; borrowed */
+struct step_context { /* what a step works on; borrowed */
   struct point_set *const *set;
   size_t sets;
   struct lane_scratch *const *scratch; /* one a thread */
@@ -73,6 +73,6 @@ struct march {                /* what a step works on; borrowed */
   int threads;
   size_t chunk;
 };
-gamut_status schedule_step(struct schedule *, const struct march *);
+gamut_status schedule_step(struct schedule *, const struct step_context *);
 
 #endif

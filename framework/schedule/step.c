@@ -7,11 +7,11 @@
 #include <omp.h>
 #endif
 
-static gamut_status list_pieces(struct schedule *schedule, const struct march *march)
+static gamut_status list_pieces(struct schedule *schedule, const struct step_context *context)
 {
   size_t pieces = 0;
-  for (size_t s = 0; s < march->sets; s++)
-    pieces += march->set[s]->open.blocks;
+  for (size_t s = 0; s < context->sets; s++)
+    pieces += context->set[s]->open.blocks;
   if (pieces > schedule->piece_capacity) {
     struct piece *grown = realloc(schedule->piece, 2 * pieces * sizeof *grown);
     if (!grown)
@@ -20,8 +20,8 @@ static gamut_status list_pieces(struct schedule *schedule, const struct march *m
     schedule->piece_capacity = 2 * pieces;
   }
   schedule->pieces = 0;
-  for (size_t s = 0; s < march->sets; s++)
-    for (size_t b = 0; b < march->set[s]->open.blocks; b++)
+  for (size_t s = 0; s < context->sets; s++)
+    for (size_t b = 0; b < context->set[s]->open.blocks; b++)
       schedule->piece[schedule->pieces++] = (struct piece){s, b};
   return GAMUT_OK;
 }
@@ -49,12 +49,12 @@ static gamut_status run_tasks(struct task *const *task, size_t tasks,
   return GAMUT_OK;
 }
 
-static gamut_status sweep_block(const struct sweep *sweep, const struct march *march,
+static gamut_status sweep_block(const struct sweep *sweep, const struct step_context *context,
                                 struct piece piece, size_t serial, int thread, size_t components)
 {
   gamut_status status = GAMUT_OK;
-  struct point_set *set = march->set[piece.set];
-  struct lane_scratch *scratch = march->scratch[thread];
+  struct point_set *set = context->set[piece.set];
+  struct lane_scratch *scratch = context->scratch[thread];
   const unsigned char *source = sweep->source + piece.set * components;
   size_t first = set->open.first[piece.block], end = set->open.first[piece.block + 1];
   struct gamut_chunk chunk = {.set = &set->open,
@@ -63,9 +63,9 @@ static gamut_status sweep_block(const struct sweep *sweep, const struct march *m
                               .slot = first,
                               .thread = thread};
   TRY(run_tasks(sweep->open, sweep->opens, &chunk));
-  for (size_t slot = first; slot < end; slot += march->chunk) {
-    size_t count = end - slot < march->chunk ? end - slot : march->chunk;
-    scratch_bind(scratch, set, source, march->uniform, slot, count, &chunk);
+  for (size_t slot = first; slot < end; slot += context->chunk) {
+    size_t count = end - slot < context->chunk ? end - slot : context->chunk;
+    scratch_bind(scratch, set, source, context->uniform, slot, count, &chunk);
     TRY(run_tasks(sweep->chunk, sweep->chunks, &chunk));
     scratch_commit(scratch, source, &chunk);
   }
@@ -77,12 +77,12 @@ done:
 }
 
 static gamut_status run_sweep(struct schedule *schedule, const struct sweep *sweep,
-                              const struct march *march)
+                              const struct step_context *context)
 {
-  size_t components = march->sets ? fields_components(march->set[0]->fields) : 0;
+  size_t components = context->sets ? fields_components(context->set[0]->fields) : 0;
   size_t failed = SIZE_MAX;
   gamut_status failure = GAMUT_OK;
-#pragma omp parallel num_threads(march->threads)
+#pragma omp parallel num_threads(context->threads)
   {
 #ifdef _OPENMP
     int thread = omp_get_thread_num();
@@ -91,8 +91,7 @@ static gamut_status run_sweep(struct schedule *schedule, const struct sweep *swe
 #endif
 #pragma omp for schedule(dynamic, 1)
     for (size_t p = 0; p < schedule->pieces; p++) {
-      gamut_status status =
-          sweep_block(sweep, march, schedule->piece[p], p, thread, components);
+      gamut_status status = sweep_block(sweep, context, schedule->piece[p], p, thread, components);
       if (status == GAMUT_OK)
         continue;
 #pragma omp critical(gamut_failed_block)
@@ -105,16 +104,16 @@ static gamut_status run_sweep(struct schedule *schedule, const struct sweep *swe
   return failure;
 }
 
-gamut_status schedule_step(struct schedule *schedule, const struct march *march)
+gamut_status schedule_step(struct schedule *schedule, const struct step_context *context)
 {
   gamut_status status = GAMUT_OK;
-  TRY(list_pieces(schedule, march));
+  TRY(list_pieces(schedule, context));
   for (size_t s = 0; s < schedule->sweeps; s++) {
     const struct sweep *sweep = &schedule->sweep[s];
     if (sweep->once)
       TRY(run_task(sweep->chunk[0], NULL));
     else
-      TRY(run_sweep(schedule, sweep, march));
+      TRY(run_sweep(schedule, sweep, context));
   }
 done:
   return status;

@@ -82,7 +82,7 @@ static bool read_deviation(hid_t group, struct result_history *history)
   return history->deviation && count == history->count;
 }
 
-/* The curve of one run among several stands below its quantity: they are told apart by number. */
+/* The curve of one run among several stands below its quantity: a number distinguishes them. */
 static bool name_member(struct result_history *history)
 {
   history->label = NULL;

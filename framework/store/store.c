@@ -201,7 +201,7 @@ const char *store_folder(const struct store *store)
   return store->folder;
 }
 
-/* A text as a file, and as a dataset of results.h5 so that the one file tells all. */
+/* A text as a file, and as a dataset of results.h5 so that the one file holds all. */
 static gamut_status keep_text(struct store *store, const char *name, const char *dataset,
                               const char *text, struct trace *trace)
 {

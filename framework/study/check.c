@@ -16,7 +16,7 @@ done:
   return status;
 }
 
-/* Levels say the same as a rule: what is no error is counted, the first one's words are told. */
+/* Levels say the same as a rule: what is no error is counted, the first one's words are printed. */
 static void hear(struct study *study, const struct trace *trace, size_t level)
 {
   const char *warning = trace_first(trace, MESSAGE_WARNING);

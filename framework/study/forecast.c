@@ -8,7 +8,7 @@
 
 enum { RUNS_COUNTED = 1 << 20 };
 
-/* Told nothing but failures, an estimator asks for what it would at least. */
+/* Given nothing but failures, an estimator asks for what it would at least. */
 static gamut_status count_runs(struct study *study, struct study_forecast *f)
 {
   gamut_status status;

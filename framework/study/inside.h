@@ -105,7 +105,7 @@ struct study {
   size_t finished, failed, repeated; /* repeated: taken from the log */
   size_t warned;                     /* runs with warnings */
   char *warning;                     /* the first one's words */
-  bool noted;                        /* a note of a level has been told */
+  bool noted;                        /* a note of a level has been printed */
   struct outcome *logged;            /* by number; done where the log has it */
   size_t logs;
   struct store *store; /* of the folder; null: nothing is written */
@@ -164,7 +164,8 @@ gamut_status work_run(struct study *, struct worker *, struct outcome *);
 
 /* log.c: what has been run, line by line. */
 void log_digest(struct study *); /* after plugins have been opened */
-/* Reads and goes on with a log that is there, where the options say so; `there` tells. */
+/* Reads and goes on with a log that is there, where the options say so; `there`: there is
+ * one. */
 gamut_status log_resume(struct study *, const char *folder, bool *there);
 gamut_status log_begin(struct study *, const char *folder);
 bool log_has_axes(const struct study *);

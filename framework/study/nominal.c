@@ -1,6 +1,6 @@
 /* Before the first run of a study: what is measured, in which units, on which axes. Where runs are
- * a sample, the run at the means tells and gives the axes. Where each stands for itself, the scene
- * below the levels is no member and need not work: the first level that can be planned tells. */
+ * a sample, the run at the means is it and gives the axes. Where each stands for itself, the scene
+ * below the levels is no member and need not work: the first level that can be planned is taken. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

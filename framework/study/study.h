@@ -11,8 +11,8 @@
  * by Cholesky, turned into probabilities and through each parameter's quantile function into
  * values. A level is a list of scene overrides (`type: levels` parameter of the estimator: a
  * mapping of scene paths to lists of values, combined as a grid or side by side). Runs of a batch
- * go side by side on threads, each run on one; results are told in the order of rows, so tables do
- * not depend on threads.
+ * go side by side on threads, each run on one; results are recorded in the order of rows, so tables
+ * do not depend on threads.
  *
  * A run's realisation, which random fields hang on, is its number among the runs of its level, so
  * that levels see the same fields. A draw that no plugin takes (range, constraint) is a failed run.
@@ -61,7 +61,7 @@ gamut_status study_check(struct scene *, struct registry *, const struct units *
 /* Where runs stand for themselves, the scene below the levels is no member of the study: the first
  * level that can be planned, to be freed. Else null: the scene itself is what is planned. */
 gamut_status study_member(struct study *, struct scene **);
-/* How many runs the estimator asks for where it is told nothing, and what they cost in all. Needs
+/* How many runs the estimator asks for where it is given nothing, and what they cost in all. Needs
  * a run of the study's, planned, and its forecast. */
 struct study_forecast {
   size_t runs;

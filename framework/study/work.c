@@ -54,7 +54,7 @@ static bool map_parameters(const struct study *study, struct worker *worker)
   return worker->parameter != NULL;
 }
 
-/* What the scene warns of was told when the levels were checked. */
+/* What the scene warns of was printed when the levels were checked. */
 gamut_status worker_take(const struct study *study, struct worker *worker, size_t level,
                          struct trace *trace)
 {
@@ -115,7 +115,7 @@ static gamut_status collect(const struct study *study, const struct gamut_run *r
   return GAMUT_OK;
 }
 
-/* Warnings come from many runs at once: they are counted, the first one is told. */
+/* Warnings come from many runs at once: they are counted, the first one is printed. */
 static void take_warning(struct study *study, const struct trace *trace)
 {
   const char *words = trace_first(trace, MESSAGE_WARNING);

@@ -37,7 +37,7 @@ enum unit_result unit_read_bare(const struct units *, const char *text, const ch
 enum unit_result unit_read_difference(const struct units *, const char *text, const char *unit,
                                       double *value);
 
-/* Whether two units can be read and have the same dimension: unit_alike(u, x, x) tells if x is a
+/* Whether two units can be read and have the same dimension: unit_alike(u, x, x) is whether x is a
  * unit. */
 bool unit_alike(const struct units *, const char *one, const char *other);
 

@@ -204,7 +204,7 @@ static bool stage_open(struct stage *stage, const char *text, uint64_t realisati
          scene_read(file, NULL, 0, stage->registry, stage->units, stage->trace, &stage->scene) ==
              GAMUT_OK &&
          run_new(stage->scene, stage->registry, &how, stage->trace, &stage->run) == GAMUT_OK &&
-         march_start(stage->run) == GAMUT_OK;
+         advance_start(stage->run) == GAMUT_OK;
   unlink(file);
   if (!good) {
     tap_ok(false, "the scene starts");
@@ -235,7 +235,7 @@ static void check_realisation(uint64_t realisation)
   if (stage_open(&stage, uneven, realisation)) {
     find_weights(stage.bar);
     check_weights(stage.bar, name);
-    while (more && march_step(stage.run, &more) == GAMUT_OK && more) {
+    while (more && advance_step(stage.run, &more) == GAMUT_OK && more) {
       steps++;
       find_stiffness(stage.bar);
       look_at_stiffness(&worst);

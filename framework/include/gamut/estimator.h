@@ -33,7 +33,7 @@ struct gamut_moments {
   double *mean_error, *variance_error; /* one standard error, or the estimator's own bound;
                                           infinite where the estimator knows none */
   /* Where mean and variance lie with a confidence of 95 %. The core sets these to NaN before it
-   * asks: what an estimator does not state is told as unknown. */
+   * asks: what an estimator does not state is printed as unknown. */
   double *mean_lower, *mean_upper, *variance_lower, *variance_upper;
   double *heavy_tail; /* kurtosis of the sample, where it is so large that the interval of the
                          variance is not to be relied on */

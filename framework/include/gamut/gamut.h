@@ -38,7 +38,7 @@ GAMUT_API const char *gamut_version(void);
 
 /* Unit database, registry of plugins, messages. plugin_path: absolute folders to look in first,
  * separated by ':', or null. Null if there is no memory or no unit database. What is wrong with
- * folders of plugins, which are then skipped, gamut_messages tells until the next call. */
+ * folders of plugins, which are then skipped, gamut_messages lists until the next call. */
 struct gamut_session;
 GAMUT_API struct gamut_session *gamut_session_new(const char *plugin_path);
 GAMUT_API void gamut_session_free(struct gamut_session *); /* accepts null */

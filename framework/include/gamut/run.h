@@ -160,7 +160,7 @@ struct gamut_removed {
  * the bookkeeping, stored energy grown beyond what was supplied is an instability (exit 5). */
 enum gamut_ledger_role { GAMUT_STORED, GAMUT_SUPPLIED, GAMUT_LOST };
 
-/* Chance. */
+/* Random numbers. */
 
 /* Counter-based stream of random numbers (Philox): the same (seed, realisation, name, index) gives
  * the same number on any machine and thread, in any order. Copy it freely; change realisation at
@@ -296,7 +296,7 @@ struct gamut_host {
   /* Box around the bodies of the scene, in the axes of its geometry (0 in the others); false where
    * no body has a shape. */
   bool (*domain)(const struct gamut_run *, double lower[3], double upper[3]);
-  /* Tells people something that is as it should be. */
+  /* Prints something that is as it should be. */
   void (*note)(struct gamut_run *, const char *format, ...);
   /* Says where the points of a law are: parameters with a random field get their values there. A
    * scene with such a field is refused if the solver has not said it by the end of its start. */

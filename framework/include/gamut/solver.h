@@ -1,4 +1,4 @@
-/* Solvers: they march bodies in time or load.
+/* Solvers: they advance bodies in time or load.
  *
  * The core drives. It calls create (the solver lays out points and registers fields and tasks),
  * plans the run (which tasks are live, in which order, which fields are stored), allocates, calls

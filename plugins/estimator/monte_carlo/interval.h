@@ -14,7 +14,7 @@ struct sample {
 };
 struct sample sample_of(const struct sums *);
 
-/* NaN where there are too few runs to tell: 3 for the mean, 4 for the variance. */
+/* NaN where there are too few runs: 3 for the mean, 4 for the variance. */
 struct interval {
   double lower, upper;
 };

@@ -2,7 +2,7 @@
 #include "bar.h"
 
 /* Bounds that noise is kept within, so that a modulus stays positive and a softness within 0 and 1.
- * What is kept is counted and told. */
+ * What is kept is counted and reported. */
 static const double noise_bound = 0.95;
 
 static void bound(struct bar *bar, double *noise)

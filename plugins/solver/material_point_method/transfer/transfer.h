@@ -25,7 +25,7 @@ struct work {
   int32_t node[STRIDE];    /* number of that node in the tile */
   double value[6][STRIDE]; /* gathered: velocity and its change */
   double second[3][STRIDE]; /* second moments of the weights, m2, if points carry an affine field */
-  double mean_second;       /* what their affine field is told by */
+  double mean_second;       /* what their affine field is found from */
   double *tile;          /* nodes' lines, from the grid */
   double *sums;          /* nodes' lines, to the grid; clear between blocks */
   double prepared[PREPARED][STRIDE];

@@ -6,8 +6,8 @@
 #include "registry/guard.h"
 #include "run/inside.h"
 
-/* How often the progress is told, in wall seconds. */
-static const double telling = 0.1;
+/* How often the progress is printed, in wall seconds. */
+static const double progress_every = 0.1;
 
 /* More steps than a year of computing has. */
 static const double STEPS_MAX = 1e13;
@@ -31,7 +31,7 @@ static void set_uniform_field(struct gamut_run *run, const char *name, double va
     run_host.set_uniform(run, field->handle, value);
 }
 
-gamut_status march_start(struct gamut_run *run)
+gamut_status advance_start(struct gamut_run *run)
 {
   gamut_status status;
   if (run->started)
@@ -55,7 +55,7 @@ done:
 gamut_status run_start(struct gamut_run *run, struct trace *trace)
 {
   run->trace = trace;
-  return march_start(run);
+  return advance_start(run);
 }
 
 static gamut_status choose_step(struct gamut_run *run, double *step)
@@ -83,7 +83,7 @@ done:
   return status;
 }
 
-gamut_status march_first_step(struct gamut_run *run, double *step)
+gamut_status advance_first_step(struct gamut_run *run, double *step)
 {
   return choose_step(run, step);
 }
@@ -96,7 +96,7 @@ static uint64_t count_points(const struct gamut_run *run)
   return points;
 }
 
-gamut_status march_step(struct gamut_run *run, bool *more)
+gamut_status advance_step(struct gamut_run *run, bool *more)
 {
   gamut_status status;
   bool due;
@@ -112,10 +112,10 @@ gamut_status march_step(struct gamut_run *run, bool *more)
   TRY(observe_before(run, step, &due));
   set_uniform_field(run, "time_step", step);
   set_uniform_field(run, "time", run->time);
-  const struct march march = {run->set,     run->scene->bodies, run->scratch,
-                              run->uniform, run->threads,       run->chunk};
+  const struct step_context context = {run->set,     run->scene->bodies, run->scratch,
+                                       run->uniform, run->threads,       run->chunk};
   run->work += (double)count_points(run);
-  TRY(schedule_step(run->schedule, &march));
+  TRY(schedule_step(run->schedule, &context));
   run->time = run->end > 0.0 && step >= run->end - run->time ? run->end : run->time + step;
   run->steps++;
   TRY(stop_check(run));
@@ -137,15 +137,15 @@ static void tell_progress(const struct gamut_run *run, double since)
   run->options.progress(run->options.progress_self, done, run->time, run->steps, rate);
 }
 
-static gamut_status march_all(struct gamut_run *run)
+static gamut_status advance_all(struct gamut_run *run)
 {
   gamut_status status = GAMUT_OK;
-  double begun = clock_now(CLOCK_MONOTONIC), told = begun;
+  double begun = clock_now(CLOCK_MONOTONIC), reported = begun;
   for (bool more = true; more;) {
-    TRY(march_step(run, &more));
+    TRY(advance_step(run, &more));
     double now = clock_now(CLOCK_MONOTONIC);
-    if (now - told > telling || !more) {
-      told = now;
+    if (now - reported > progress_every || !more) {
+      reported = now;
       tell_progress(run, now - begun);
     }
     if (more && run->options.stop && *run->options.stop) {
@@ -166,25 +166,25 @@ gamut_status run_march(struct gamut_run *run, struct trace *trace)
   gamut_status status, written;
   double wall = clock_now(CLOCK_MONOTONIC), cpu = clock_now(CLOCK_PROCESS_CPUTIME_ID);
   run->trace = trace;
-  TRY(march_start(run));
+  TRY(advance_start(run));
   if (!run->resumed)
     TRY(frames_write(run));
   checkpoint_start(run);
-  TRY(march_all(run));
+  TRY(advance_all(run));
 done:
   run->wall = clock_now(CLOCK_MONOTONIC) - wall;
   run->cpu = clock_now(CLOCK_PROCESS_CPUTIME_ID) - cpu;
   /* The last state is worth most when something went wrong. */
   written = run->started ? frames_write(run) : GAMUT_OK;
   if (status == GAMUT_OK || status == GAMUT_STOPPED) {
-    gamut_status told = observe_after(run, false, true);
+    gamut_status observed = observe_after(run, false, true);
     if (status == GAMUT_OK)
-      status = told != GAMUT_OK ? told : written;
+      status = observed != GAMUT_OK ? observed : written;
   }
   return status;
 }
 
-/* The kernel tells kilobytes. */
+/* The kernel counts in kilobytes. */
 static size_t resident_bytes(void)
 {
   struct rusage used;

@@ -1,4 +1,4 @@
-/* Chance in a run: streams, random fields, and parameters that differ from point to point. */
+/* Random numbers of a run: streams, random fields, parameters that differ from point to point. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,12 +13,12 @@ struct field_operations {
 };
 
 /* A random field that the scene names, made when it is first asked for. */
-struct chance {
+struct sampled_field {
   const struct value *value;
   char path[256]; /* what it is for, for people */
   const struct field_operations *ops;
   void *self;
-  struct chance *next;
+  struct sampled_field *next;
 };
 
 struct gamut_stream host_stream(const struct gamut_run *run, const char *name)
@@ -56,62 +56,63 @@ bool host_domain(const struct gamut_run *run, double lower[3], double upper[3])
 }
 
 static gamut_status make_field(struct gamut_run *run, const struct value *value,
-                               struct chance **out)
+                               struct sampled_field **out)
 {
   gamut_status status;
   const struct gamut_plugin *plugin;
-  struct chance *chance = calloc(1, sizeof *chance);
-  if (!chance)
+  struct sampled_field *field = calloc(1, sizeof *field);
+  if (!field)
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   TRY(registry_open(run->registry, value->model, run->trace, &plugin));
-  chance->value = value;
-  chance->ops = plugin->ops;
-  if (!chance->ops->create || !chance->ops->destroy || !chance->ops->sample) {
+  field->value = value;
+  field->ops = plugin->ops;
+  if (!field->ops->create || !field->ops->destroy || !field->ops->sample) {
     status = trace_fail(run->trace, GAMUT_PLUGIN,
                         "%s lacks one of the operations create, destroy, sample", value->model->id);
     goto done;
   }
-  TRY(GUARDED(value->model->id, chance->ops->create(run, value->group, &chance->self)));
-  tree_path(value->node, chance->path, sizeof chance->path);
-  chance->next = run->chance;
-  run->chance = chance;
-  *out = chance;
+  TRY(GUARDED(value->model->id, field->ops->create(run, value->group, &field->self)));
+  tree_path(value->node, field->path, sizeof field->path);
+  field->next = run->sampled_field;
+  run->sampled_field = field;
+  *out = field;
 done:
   if (status != GAMUT_OK)
-    free(chance);
+    free(field);
   return status;
 }
 
-bool chance_at(const struct gamut_run *run, size_t index, const char **path, const char **plugin)
+bool random_field_at(const struct gamut_run *run, size_t index, const char **path,
+                     const char **plugin)
 {
-  const struct chance *chance = run->chance;
-  while (chance && index-- > 0)
-    chance = chance->next;
-  if (!chance)
+  const struct sampled_field *field = run->sampled_field;
+  while (field && index-- > 0)
+    field = field->next;
+  if (!field)
     return false;
-  *path = chance->path;
-  *plugin = chance->value->model->id;
+  *path = field->path;
+  *plugin = field->value->model->id;
   return true;
 }
 
 static gamut_status find_field(struct gamut_run *run, const struct value *value,
-                               struct chance **out)
+                               struct sampled_field **out)
 {
-  for (struct chance *chance = run->chance; chance; chance = chance->next)
-    if (chance->value == value) {
-      *out = chance;
+  for (struct sampled_field *field = run->sampled_field; field; field = field->next)
+    if (field->value == value) {
+      *out = field;
       return GAMUT_OK;
     }
   return make_field(run, value, out);
 }
 
-void chance_free(struct gamut_run *run)
+void random_free(struct gamut_run *run)
 {
-  while (run->chance) {
-    struct chance *chance = run->chance;
-    run->chance = chance->next;
-    chance->ops->destroy(chance->self);
-    free(chance);
+  while (run->sampled_field) {
+    struct sampled_field *field = run->sampled_field;
+    run->sampled_field = field->next;
+    field->ops->destroy(field->self);
+    free(field);
   }
 }
 
@@ -129,7 +130,7 @@ done:
   return status;
 }
 
-gamut_status chance_open(struct gamut_run *run)
+gamut_status random_open(struct gamut_run *run)
 {
   gamut_status status;
   const struct scene *scene = run->scene;
@@ -146,24 +147,24 @@ done:
   return status;
 }
 
-static gamut_status sample_field(struct gamut_run *run, const struct value *value,
-                                 const char *name, size_t count, const double *const position[3],
-                                 const int64_t *id, double *sampled)
+static gamut_status sample_field(struct gamut_run *run, const struct value *value, const char *name,
+                                 size_t count, const double *const position[3], const int64_t *id,
+                                 double *sampled)
 {
   gamut_status status;
-  struct chance *chance = NULL;
+  struct sampled_field *field = NULL;
   const struct gamut_stream stream = host_stream(run, name);
-  TRY(find_field(run, value, &chance));
+  TRY(find_field(run, value, &field));
   run->sampling = value;
   status = GUARDED(value->model->id,
-                   chance->ops->sample(chance->self, &stream, count, position, id, sampled));
+                   field->ops->sample(field->self, &stream, count, position, id, sampled));
   run->sampling = NULL;
   TRY(status);
   for (size_t i = 0; i < count; i++)
     if (!isfinite(sampled[i])) {
-      status = trace_fail(run->trace, GAMUT_NUMERICS,
-                          "%s gave no finite value of '%s' at point %lld", value->model->id, name,
-                          (long long)id[i]);
+      status =
+          trace_fail(run->trace, GAMUT_NUMERICS, "%s gave no finite value of '%s' at point %lld",
+                     value->model->id, name, (long long)id[i]);
       goto done;
     }
 done:
@@ -180,13 +181,13 @@ gamut_status host_sample(struct gamut_run *run, const struct gamut_values *value
 }
 
 /* Numbers of a field become values of the parameter: its distribution is kept. */
-static void translate(const struct chance *chance, const struct distribution *d, size_t count,
+static void translate(const struct sampled_field *field, const struct distribution *d, size_t count,
                       double *number)
 {
-  bool other = offsetof(struct field_operations, below) < chance->ops->size && chance->ops->below;
+  bool other = offsetof(struct field_operations, below) < field->ops->size && field->ops->below;
   const double most = 1.0 - 0x1p-53;
   for (size_t i = 0; i < count; i++) {
-    double u = other ? chance->ops->below(chance->self, number[i]) : NAN;
+    double u = other ? field->ops->below(field->self, number[i]) : NAN;
     number[i] = isnan(u) ? distribution_of_normal(d, number[i])
                          : distribution_quantile(d, fmin(fmax(u, 1.0 - most), most));
   }
@@ -198,12 +199,12 @@ static gamut_status draw_one(struct gamut_run *run, const struct values *values,
 {
   gamut_status status;
   char name[512];
-  struct chance *chance;
+  struct sampled_field *field;
   const struct value *value = &values->value[index];
   snprintf(name, sizeof name, "%s.%s", values->path, value->parameter->name);
   TRY(sample_field(run, value, name, count, position, id, number));
-  TRY(find_field(run, value, &chance));
-  translate(chance, value->random, count, number);
+  TRY(find_field(run, value, &field));
+  translate(field, value->random, count, number);
 done:
   return status;
 }
@@ -243,9 +244,9 @@ done:
   return status;
 }
 
-gamut_status chance_draw(struct gamut_run *run, const struct pointwise *points,
-                         const struct values *values, size_t count,
-                         const double *const position[3], const int64_t *id, double *const *number)
+gamut_status random_draw(struct gamut_run *run, const struct pointwise *points,
+                         const struct values *values, size_t count, const double *const position[3],
+                         const int64_t *id, double *const *number)
 {
   gamut_status status = GAMUT_OK;
   for (size_t k = 0; k < values->count; k++)
@@ -325,7 +326,7 @@ static gamut_status scatter(struct gamut_run *run, const struct point_set *set,
     if (pointwise_varies(points, k))
       good = (number[k] = calloc(crowd.count + 1, sizeof(double))) != NULL;
   if (good)
-    status = chance_draw(run, points, values, crowd.count, (const double *const *)crowd.x, crowd.id,
+    status = random_draw(run, points, values, crowd.count, (const double *const *)crowd.x, crowd.id,
                          number);
   else
     status = trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
@@ -342,7 +343,7 @@ static gamut_status scatter(struct gamut_run *run, const struct point_set *set,
   return status;
 }
 
-gamut_status chance_scatter(struct gamut_run *run, const struct point_set *set)
+gamut_status random_scatter(struct gamut_run *run, const struct point_set *set)
 {
   gamut_status status;
   const struct material *material = &run->scene->material[set->material];
