@@ -27,7 +27,7 @@ openmp_flags = $(if $(filter solver/%,$(1)),$(OPENMP_CFLAGS),$(OPENMP_SIMD_FLAGS
 # --- gamut-header --------------------------------------------------------------------------------
 header_rooms = error unit tree expression descriptor
 header_objects = $(patsubst %.c,%.lo,$(filter \
-  $(foreach room,$(header_rooms),framework/$(room)/%.c) framework/field/vocabulary.c,\
+  $(foreach room,$(header_rooms),framework/$(room)/%.c) framework/field/catalogue.c,\
   $(libgamut_sources)))
 gamut-header$(EXEEXT): $(header_objects)
 

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "conformance/difference.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 /* What every law of a kind may be asked at, whether it reads it or not. */
 static const char *const standard_input[][3] = {
@@ -42,7 +42,7 @@ gamut_status evaluation_new(struct evaluation *e, const struct descriptor *descr
     return trace_fail(command->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t i = 0; i < 3; i++) {
     const char *name = standard_input[descriptor->kind][i];
-    add_input(e, name, vocabulary_find(name)->unit);
+    add_input(e, name, catalogue_find(name)->unit);
   }
   for (size_t i = 0; i < e->slots; i++) {
     char label[64];

@@ -22,7 +22,7 @@
 
 #include "conformance/laws.h"
 #include "conformance/scene_run.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 struct answer {
   struct proof *proof;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 void settings_free(struct settings *settings)
 {

@@ -32,11 +32,11 @@
  *     - {set: [shear_modulus]}         what is in `then`; all names are declared parameters. Those
  *                                      of other sets must not be given. Derived ones need no value.
  *   inputs: [velocity_gradient, viscous_pressure?]   fields read; `?`: zero where nobody has it
- *   outputs: [pressure, sound_speed]   fields written. A field outside the vocabulary (another
+ *   outputs: [pressure, sound_speed]   fields written. A field outside the catalogue (another
  *                                      plugin's state) is an item "burn: {unit: 1, components: 1}"
  *   state:                             history: fields of their own, a begin and an end value. Unit
  *     plastic_strain: {unit: 1, components: 1, initial: 0, doc: ...}   and components of a field of
- *                                      the vocabulary need not be stated, and agree if they are
+ *                                      the catalogue need not be stated, and agree if they are
  *   scratch: 24                        scratch arrays for the kernel
  *   laws: [eos, strength?]             elasticity: callees; `?`: may be absent (null pointer).
  *                                      solver: laws that it calls itself; it then updates

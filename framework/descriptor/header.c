@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "descriptor/reader.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 /* Writes a name as part of a constant's. */
 static void put_upper(FILE *file, const char *name)
@@ -37,7 +37,7 @@ static const char *slot_meaning(const struct descriptor *d, const struct slot *s
     return d->material_parameter[slot->index].doc;
   case SLOT_INPUT:
   case SLOT_OUTPUT:
-    return vocabulary_find(slot->name) ? vocabulary_find(slot->name)->meaning : NULL;
+    return catalogue_find(slot->name) ? catalogue_find(slot->name)->meaning : NULL;
   case SLOT_STATE_BEGIN:
     return "at the beginning of the step";
   case SLOT_STATE_END:

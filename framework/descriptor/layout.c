@@ -5,7 +5,7 @@
 
 #include "descriptor/reader.h"
 #include "error/memory.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 /* First pass: slots is null, slots and characters are counted. Second pass: both are written into
  * one allocation, so that the caller frees one pointer. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "descriptor/reader.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 /* "name" or "name?" or "name: {unit: .., components: ..}" (a sequence item). */
 static bool read_field(struct reader *reader, const struct tree *item, struct field_use *use)
@@ -23,11 +23,11 @@ static bool read_field(struct reader *reader, const struct tree *item, struct fi
   use->name = use->optional ? reader_text(reader, written, length - 1) : written;
   if (!check_name(reader, own ? own : item, own != NULL, use->name))
     return false;
-  const struct vocable *entry = vocabulary_find(use->name);
+  const struct field_info *entry = catalogue_find(use->name);
   if (own && check_keys(reader, own, keys, LENGTH(keys), use->name)) {
     use->unit = read_unit(reader, own, "unit", !entry);
     use->components =
-        (unsigned)read_whole(reader, own, "components", 1, VOCABULARY_COMPONENTS_MAX, 1);
+        (unsigned)read_whole(reader, own, "components", 1, CATALOGUE_COMPONENTS_MAX, 1);
   }
   if (entry) {
     use->unit = entry->unit;
@@ -35,7 +35,7 @@ static bool read_field(struct reader *reader, const struct tree *item, struct fi
   } else if (!own) {
     const char *known[128];
     size_t count = 0;
-    for (const struct vocable *v; count < LENGTH(known) && (v = vocabulary_at(count)); count++)
+    for (const struct field_info *v; count < LENGTH(known) && (v = catalogue_at(count)); count++)
       known[count] = v->name;
     char expected[256];
     const char *near = nearest(use->name, known, count);
@@ -76,11 +76,11 @@ static void read_state(struct reader *reader, const struct tree *node, struct st
   if (!check_name(reader, node, true, node->key) ||
       !check_keys(reader, node, keys, LENGTH(keys), node->key))
     return;
-  const struct vocable *entry = vocabulary_find(node->key);
+  const struct field_info *entry = catalogue_find(node->key);
   const char *unit = read_unit(reader, node, "unit", !entry);
   unsigned standard = entry ? entry->components : 1;
   state->components =
-      (unsigned)read_whole(reader, node, "components", 1, VOCABULARY_COMPONENTS_MAX, standard);
+      (unsigned)read_whole(reader, node, "components", 1, CATALOGUE_COMPONENTS_MAX, standard);
   state->doc = read_text(reader, node, "doc", !entry);
   if (entry) {
     if (unit && strcmp(unit, entry->unit) != 0)

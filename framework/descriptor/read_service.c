@@ -3,9 +3,9 @@
 #include <string.h>
 
 #include "descriptor/reader.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
-/* Names that a measure's formula may use: components of the fields of the vocabulary and of this
+/* Names that a measure's formula may use: components of the fields of the catalogue and of this
  * plugin. */
 static void add_components(struct reader *reader, const char *name, unsigned components,
                            const char **names, size_t *count)
@@ -29,12 +29,12 @@ static size_t measurable_names(struct reader *reader, const char ***names)
 {
   const struct descriptor *d = reader->descriptor;
   size_t room = 0, count = 0;
-  for (size_t i = 0; vocabulary_at(i); i++)
-    room += vocabulary_at(i)->components;
-  room += (d->inputs + d->outputs + d->states) * VOCABULARY_COMPONENTS_MAX;
+  for (size_t i = 0; catalogue_at(i); i++)
+    room += catalogue_at(i)->components;
+  room += (d->inputs + d->outputs + d->states) * CATALOGUE_COMPONENTS_MAX;
   *names = reader_keep(reader, room, sizeof **names);
-  for (size_t i = 0; vocabulary_at(i); i++)
-    add_components(reader, vocabulary_at(i)->name, vocabulary_at(i)->components, *names, &count);
+  for (size_t i = 0; catalogue_at(i); i++)
+    add_components(reader, catalogue_at(i)->name, catalogue_at(i)->components, *names, &count);
   for (size_t i = 0; i < d->inputs; i++)
     add_components(reader, d->input[i].name, d->input[i].components, *names, &count);
   for (size_t i = 0; i < d->outputs; i++)

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "descriptor/reader.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 /* Text of several lines, each indented; blank lines at the end are left out. */
 static void put_lines(FILE *file, const char *text, const char *indent)
@@ -186,7 +186,7 @@ static void put_uses(FILE *file, const char *title, const struct field_use *use,
     return;
   fprintf(file, "\n%s\n", title);
   for (size_t i = 0; i < count; i++) {
-    const struct vocable *entry = vocabulary_find(use[i].name);
+    const struct field_info *entry = catalogue_find(use[i].name);
     fprintf(file, "  %s", use[i].name);
     if (use[i].components > 1)
       fprintf(file, "[%u]", use[i].components);

@@ -21,7 +21,7 @@ enum given {
 /* A field known in a run. Components are numbered through: component k of the field is number
  * handle.first + k, the index into a chunk's begin and end tables. */
 struct field {
-  const char *name, *unit, *meaning; /* borrowed from vocabulary or descriptor */
+  const char *name, *unit, *meaning; /* borrowed from catalogue or descriptor */
   enum gamut_where where;
   struct gamut_field handle;
   double initial;

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "material/bound.h"
 #include "registry/guard.h"
 
@@ -59,8 +59,8 @@ static void collect_uses(struct bound_material *bound, int role)
 {
   const struct descriptor *d = bound->kernel[role]->descriptor;
   for (size_t i = 0; i < d->inputs; i++) {
-    const struct vocable *vocable = vocabulary_find(d->input[i].name);
-    bool point = !vocable || vocable->where == GAMUT_AT_POINT;
+    const struct field_info *info = catalogue_find(d->input[i].name);
+    bool point = !info || info->where == GAMUT_AT_POINT;
     bool temperature = strcmp(d->input[i].name, "temperature") == 0;
     if (point && (temperature || !is_argument(role, d->input[i].name)))
       add_use(bound, d->input[i].name, input_access(&d->input[i]));

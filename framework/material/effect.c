@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "material/image.h"
 
 enum { SLACK = 24 };
@@ -45,8 +45,8 @@ static bool optional_input(const struct descriptor *d, const char *name)
 
 static bool at_point(const char *name)
 {
-  const struct vocable *vocable = vocabulary_find(name);
-  return !vocable || vocable->where == GAMUT_AT_POINT;
+  const struct field_info *info = catalogue_find(name);
+  return !info || info->where == GAMUT_AT_POINT;
 }
 
 static gamut_status collect_uses(const struct descriptor *d, const struct kernel_task *from,

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 struct image *image_new(const struct kernel *kernel, struct arena *arena, size_t rows,
                         const char *label)
@@ -45,11 +45,10 @@ struct field *slot_field(const struct kernel *kernel, size_t number, struct fiel
     name = d->state[slot->index].name;
     meaning = d->state[slot->index].doc ? d->state[slot->index].doc : "";
   }
-  const struct vocable *vocable = vocabulary_find(name);
+  const struct field_info *info = catalogue_find(name);
   struct field *field =
-      fields_add(fields, vocable ? vocable->name : name, vocable ? vocable->where : GAMUT_AT_POINT,
-                 slot->components, vocable ? vocable->unit : unit,
-                 vocable ? vocable->meaning : meaning, trace);
+      fields_add(fields, info ? info->name : name, info ? info->where : GAMUT_AT_POINT,
+                 slot->components, info ? info->unit : unit, info ? info->meaning : meaning, trace);
   bool state = slot->kind == SLOT_STATE_BEGIN || slot->kind == SLOT_STATE_END;
   if (field && state) {
     field->history = true;

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 enum { SAMPLES_BY_DEFAULT = 500 };
 
@@ -17,13 +17,13 @@ static const double same_sample = 1e-6;
 /* "velocity_y" has the unit of the field "velocity". */
 static const char *field_unit(const char *name)
 {
-  const struct vocable *whole = vocabulary_find(name);
+  const struct field_info *whole = catalogue_find(name);
   if (whole)
     return whole->unit;
   const char *end = strrchr(name, '_');
   size_t length = end ? (size_t)(end - name) : 0;
-  for (size_t i = 0; length && vocabulary_at(i); ++i) {
-    const struct vocable *entry = vocabulary_at(i);
+  for (size_t i = 0; length && catalogue_at(i); ++i) {
+    const struct field_info *entry = catalogue_at(i);
     if (strlen(entry->name) == length && strncmp(entry->name, name, length) == 0)
       return entry->unit;
   }

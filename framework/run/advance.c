@@ -2,7 +2,7 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "registry/guard.h"
 #include "run/inside.h"
 

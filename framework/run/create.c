@@ -5,7 +5,7 @@
 #include <omp.h>
 #endif
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "registry/guard.h"
 #include "run/host.h"
 
@@ -65,7 +65,7 @@ static gamut_status declare_outputs(struct gamut_run *run)
   const struct descriptor *d = run->scene->solver.descriptor;
   for (size_t i = 0; i < d->outputs; i++) {
     const struct field_use *use = &d->output[i];
-    if (!vocabulary_find(use->name) &&
+    if (!catalogue_find(use->name) &&
         !fields_add(run->fields, use->name, GAMUT_AT_POINT, use->components, use->unit, use->name,
                     run->trace))
       return GAMUT_PLUGIN;
@@ -297,7 +297,7 @@ done:
 
 /* A thread with few points waits for the others longer than it works, and on a busy machine much
  * longer. Bits do not depend on it. */
-static void spare_threads(struct gamut_run *run)
+static void limit_threads(struct gamut_run *run)
 {
   size_t points = 0;
   for (size_t b = 0; b < run->scene->bodies; b++)
@@ -348,7 +348,7 @@ gamut_status run_new(struct scene *scene, struct registry *registry,
     status = GAMUT_SCENE; /* the plugin knows only that it got none */
   TRY(status);
   if (options->threads <= 0)
-    spare_threads(run);
+    limit_threads(run);
 done:
   if (status != GAMUT_OK) {
     run_free(run);

@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "registry/guard.h"
 #include "run/inside.h"
 
@@ -74,7 +74,7 @@ gamut_status declare_states(struct gamut_run *run, const struct descriptor *d)
 {
   for (size_t i = 0; i < d->states && d->tasks == 0; i++) {
     const struct state_variable *state = &d->state[i];
-    if (vocabulary_find(state->name))
+    if (catalogue_find(state->name))
       continue;
     struct field *field = fields_add(run->fields, state->name, GAMUT_AT_POINT, state->components,
                                      state->unit, state->doc ? state->doc : "", run->trace);

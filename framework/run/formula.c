@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "run/inside.h"
 
 static const char density_name[] = "reference_density";
@@ -82,7 +82,7 @@ static gamut_status keep_used(struct formula *formula, const struct gamut_run *r
   return GAMUT_OK;
 }
 
-/* Fields of the vocabulary that nobody has asked for yet and that a text names, by itself or by a
+/* Fields of the catalogue that nobody has asked for yet and that a text names, by itself or by a
  * component. Who wants them must then find who writes them. */
 gamut_status formula_declare(struct gamut_run *run, const char *text)
 {
@@ -92,8 +92,8 @@ gamut_status formula_declare(struct gamut_run *run, const char *text)
     size_t length = strspn(at, letters);
     snprintf(word, sizeof word, "%.*s", (int)length, at);
     at += length ? length : 1;
-    for (size_t i = 0; length && vocabulary_at(i); i++) {
-      const struct vocable *v = vocabulary_at(i);
+    for (size_t i = 0; length && catalogue_at(i); i++) {
+      const struct field_info *v = catalogue_at(i);
       bool named = strcmp(word, v->name) == 0;
       for (unsigned k = 0; v->components > 1 && k < v->components && !named; k++) {
         snprintf(name, sizeof name, "%s_%s", v->name, component_name(v->components, k));

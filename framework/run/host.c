@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "registry/guard.h"
 #include "run/host.h"
 
@@ -156,7 +156,7 @@ static gamut_status host_points(struct gamut_run *run, const struct gamut_body *
 
 static gamut_status host_field(struct gamut_run *run, const char *name, struct gamut_field *handle)
 {
-  const struct vocable *vocable = vocabulary_find(name);
+  const struct field_info *info = catalogue_find(name);
   struct field *field = fields_find(run->fields, name);
   bool derived = false;
   if (run->measured && wants_derive(run, name, &derived) != GAMUT_OK)
@@ -172,9 +172,9 @@ static gamut_status host_field(struct gamut_run *run, const char *name, struct g
     *handle = (struct gamut_field){.first = whole->handle.first + component, .components = 1};
     return GAMUT_OK;
   }
-  if (!field && vocable)
-    field = fields_add(run->fields, vocable->name, vocable->where, vocable->components,
-                       vocable->unit, vocable->meaning, run->trace);
+  if (!field && info)
+    field = fields_add(run->fields, info->name, info->where, info->components, info->unit,
+                       info->meaning, run->trace);
   if (!field && run->measuring && run->measuring->node)
     return trace_fail_at(run->trace, GAMUT_SCENE, &run->measuring->node->place,
                          run->measuring->name, NULL, "there is no field '%s' in this scene", name);

@@ -196,7 +196,7 @@ void formula_free(struct formula *);
 /* Names to the scheduler which fields it reads; see schedule_want. */
 void formula_want(const struct formula *, struct gamut_run *, size_t set, const char *why,
                   const struct place *);
-/* Declares what a text names of the vocabulary. */
+/* Declares what a text names of the catalogue. */
 gamut_status formula_declare(struct gamut_run *, const char *text);
 
 /* given.c: before the plan says which fields have values that no task writes; fills those of

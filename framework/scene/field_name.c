@@ -1,9 +1,9 @@
-/* Fields that quantities and outputs may name: those of the vocabulary that live at points, and the
+/* Fields that quantities and outputs may name: those of the catalogue that live at points, and the
  * states and own outputs of the plugins that the scene names. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "scene/reading.h"
 
 struct search {
@@ -56,7 +56,7 @@ static void visit_plugin(struct search *search, const struct descriptor *descrip
     visit(search, descriptor->state[i].name, descriptor->state[i].components,
           descriptor->state[i].unit);
   for (size_t i = 0; i < descriptor->outputs; i++)
-    if (descriptor->output[i].unit && !vocabulary_find(descriptor->output[i].name))
+    if (descriptor->output[i].unit && !catalogue_find(descriptor->output[i].name))
       visit(search, descriptor->output[i].name, descriptor->output[i].components,
             descriptor->output[i].unit);
 }
@@ -86,9 +86,9 @@ static void visit_instance(struct search *search, const struct instance *instanc
 
 static void visit_all(struct search *search, const struct scene *scene)
 {
-  for (size_t i = 0; vocabulary_at(i); i++)
-    if (vocabulary_at(i)->where == GAMUT_AT_POINT)
-      visit(search, vocabulary_at(i)->name, vocabulary_at(i)->components, vocabulary_at(i)->unit);
+  for (size_t i = 0; catalogue_at(i); i++)
+    if (catalogue_at(i)->where == GAMUT_AT_POINT)
+      visit(search, catalogue_at(i)->name, catalogue_at(i)->components, catalogue_at(i)->unit);
   for (size_t i = 0; i < scene->materials; i++) {
     visit_instance(search, &scene->material[i].eos);
     visit_instance(search, &scene->material[i].strength);

@@ -180,8 +180,7 @@ struct quantity {
   const char *name;
   const char *family; /* of one of several points: the name in the scene, "speed" of "speed.07" */
   const struct measure *measure;
-  const struct descriptor
-      *provider;            /* whose measure it is; null: a plain field of the vocabulary */
+  const struct descriptor *provider; /* whose measure it is; null: a plain field of the catalogue */
   const char *effect;       /* key of the effect that provides it, or null */
   const char *field;        /* plain field component, e.g. "velocity_y", or null */
   struct values *arguments; /* may be null */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "error/exclusive.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/state.h"
@@ -42,7 +42,7 @@ static void component_list(unsigned components, char *list, size_t size)
 static herr_t describe(hid_t dataset, const char *unit, const char *meaning, unsigned components,
                        bool symmetric)
 {
-  char list[8 * VOCABULARY_COMPONENTS_MAX];
+  char list[8 * CATALOGUE_COMPONENTS_MAX];
   herr_t result = hdf5_text_attribute(dataset, "unit", unit);
   if (result >= 0)
     result = hdf5_text_attribute(dataset, "meaning", meaning);
@@ -193,7 +193,7 @@ gamut_status store_frame(struct store *store, double time, uint64_t step,
     count = set[i].count > count ? set[i].count : count;
   }
   for (size_t i = 0; i < fields; ++i) {
-    assert(field[i].components >= 1 && field[i].components <= VOCABULARY_COMPONENTS_MAX);
+    assert(field[i].components >= 1 && field[i].components <= CATALOGUE_COMPONENTS_MAX);
     columns = stored_components(&field[i]) > columns ? stored_components(&field[i]) : columns;
   }
   if (!buffer_reserve(store, count * columns + 1))

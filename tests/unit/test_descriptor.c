@@ -4,9 +4,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "tests/tap.h"
 #include "descriptor/descriptor.h"
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
+#include "tests/tap.h"
 
 static struct units *units;
 static char folder[] = "test_descriptor_XXXXXX";
@@ -109,7 +109,7 @@ static void test_values(const struct descriptor *d)
   tap_ok(d->input[1].optional && strcmp(d->input[1].name, "viscous_pressure") == 0,
          "optional input loses its mark");
   tap_ok(d->input[2].components == 2 && d->input[0].components == 9, "components of inputs");
-  tap_ok(d->state[0].components == 6, "stress has its six components from the vocabulary");
+  tap_ok(d->state[0].components == 6, "stress has its six components from the catalogue");
   tap_relative("initial value", d->state[1].initial, 0.5, 0);
   tap_ok(d->laws == 2 && d->law[1].optional, "laws");
   tap_ok(d->message[1].severity == GAMUT_STOP, "severity");
@@ -300,7 +300,7 @@ int main(void)
     return 99;
   tap_text("component of a symmetric tensor", component_name(6, 5), "zx");
   tap_text("component of a full tensor", component_name(9, 3), "yx");
-  tap_ok(vocabulary_find("stress") && !vocabulary_find("stres"), "vocabulary by name");
+  tap_ok(catalogue_find("stress") && !catalogue_find("stres"), "catalogue by name");
   test_range();
   test_whole();
   test_derivatives();

@@ -223,7 +223,7 @@ struct gamut_host {
    * Called in create, once a body; the arrays exist after the core has planned the run. */
   gamut_status (*points)(struct gamut_run *, const struct gamut_body *, size_t points,
                          struct gamut_set **set);
-  /* Handle of a field by its name in the vocabulary or in a loaded descriptor. */
+  /* Handle of a field by its name in the catalogue or in a loaded descriptor. */
   gamut_status (*field)(struct gamut_run *, const char *name, struct gamut_field *field);
   /* A field's stored array of a set, by component; null where this scene does not store it. */
   double *(*stored)(const struct gamut_set *, struct gamut_field, unsigned component);

@@ -1,7 +1,7 @@
-/* The names of the field's fields. Plugins refer to these by name in `inputs` and `outputs`; state
+/* The fields that gamut knows by name. Plugins refer to these in `inputs` and `outputs`; state
  * variables that a descriptor declares join them. */
-#ifndef GAMUT_VOCABULARY_H
-#define GAMUT_VOCABULARY_H
+#ifndef GAMUT_FIELD_CATALOGUE_H
+#define GAMUT_FIELD_CATALOGUE_H
 
 #include <stddef.h>
 
@@ -9,7 +9,7 @@
 
 /* X(name, where, components, unit, meaning). Symmetric tensors: xx yy zz xy yz zx. Full tensors:
  * row by row, xx xy xz yx yy yz zx zy zz. */
-#define VOCABULARY(X)                                                                              \
+#define FIELD_CATALOGUE(X)                                                                         \
   X(position, GAMUT_AT_POINT, 3, "m", "where the point is")                                        \
   X(velocity, GAMUT_AT_POINT, 3, "m/s", "velocity of the point")                                   \
   X(mass, GAMUT_AT_POINT, 1, "kg", "mass of the point")                                            \
@@ -45,7 +45,7 @@
   X(time_step, GAMUT_AT_RUN, 1, "s", "length of the step")                                         \
   X(cell_size, GAMUT_AT_RUN, 1, "m", "edge of a grid cell")
 
-struct vocable {
+struct field_info {
   const char *name;
   enum gamut_where where;
   unsigned components;
@@ -53,11 +53,11 @@ struct vocable {
 };
 
 /* The entry of that name, or null. */
-const struct vocable *vocabulary_find(const char *name);
-const struct vocable *vocabulary_at(size_t index); /* null past the end */
+const struct field_info *catalogue_find(const char *name);
+const struct field_info *catalogue_at(size_t index); /* null past the end */
 /* "xx", "x", "" for component k of a field with n components; "0", "1" ... where n is none of 1, 2,
- * 3, 6, 9. No field has more than VOCABULARY_COMPONENTS_MAX. */
-enum { VOCABULARY_COMPONENTS_MAX = 32 };
+ * 3, 6, 9. No field has more than CATALOGUE_COMPONENTS_MAX. */
+enum { CATALOGUE_COMPONENTS_MAX = 32 };
 const char *component_name(unsigned components, unsigned k);
 
 #endif

@@ -1,28 +1,28 @@
-#include "field/vocabulary.h"
+#include "field/catalogue.h"
 
 #include <assert.h>
 #include <string.h>
 
-static const struct vocable vocabulary[] = {
-#define VOCABULARY_ENTRY(name, where, components, unit, meaning)                                   \
+static const struct field_info catalogue[] = {
+#define CATALOGUE_ENTRY(name, where, components, unit, meaning)                                    \
   {#name, where, components, unit, meaning},
-    VOCABULARY(VOCABULARY_ENTRY)
-#undef VOCABULARY_ENTRY
+    FIELD_CATALOGUE(CATALOGUE_ENTRY)
+#undef CATALOGUE_ENTRY
 };
 
-enum { VOCABLES = sizeof(vocabulary) / sizeof(vocabulary[0]) };
+enum { CATALOGUE_SIZE = sizeof(catalogue) / sizeof(catalogue[0]) };
 
-const struct vocable *vocabulary_find(const char *name)
+const struct field_info *catalogue_find(const char *name)
 {
-  for (size_t i = 0; i < VOCABLES; i++)
-    if (strcmp(vocabulary[i].name, name) == 0)
-      return &vocabulary[i];
+  for (size_t i = 0; i < CATALOGUE_SIZE; i++)
+    if (strcmp(catalogue[i].name, name) == 0)
+      return &catalogue[i];
   return NULL;
 }
 
-const struct vocable *vocabulary_at(size_t index)
+const struct field_info *catalogue_at(size_t index)
 {
-  return index < VOCABLES ? &vocabulary[index] : NULL;
+  return index < CATALOGUE_SIZE ? &catalogue[index] : NULL;
 }
 
 const char *component_name(unsigned components, unsigned k)
@@ -34,7 +34,7 @@ const char *component_name(unsigned components, unsigned k)
                                        "8",  "9",  "10", "11", "12", "13", "14", "15",
                                        "16", "17", "18", "19", "20", "21", "22", "23",
                                        "24", "25", "26", "27", "28", "29", "30", "31"};
-  assert(k < components && components <= VOCABULARY_COMPONENTS_MAX);
+  assert(k < components && components <= CATALOGUE_COMPONENTS_MAX);
   switch (components) {
   case 1:
     return "";
