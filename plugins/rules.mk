@@ -17,8 +17,8 @@ shared_objects = $(foreach plugin,$(gamut_plugins),\
 all_objects = $(foreach plugin,$(gamut_plugins),\
   $(call objects,$(plugin),) $(foreach suffix,$(suffixes),$(call objects,$(plugin),$(suffix))))
 
-plugin_compile = $(CC) -I$(srcdir)/framework/include -std=gnu11 $(PLUGIN_OPTIMISE_FLAGS) \
-  $(PLUGIN_MATH_FLAGS) $(WARNING_FLAGS) -Werror=switch -fPIC -fvisibility=hidden $(SANITIZER_FLAGS)
+plugin_compile = $(CC) -I$(srcdir)/framework/include $(PLUGIN_OPTIMISE_FLAGS) $(PLUGIN_FLAGS) \
+  $(WARNING_FLAGS) -Werror=switch $(SANITIZER_FLAGS)
 plugin_link = $(CC) -shared $(PLUGIN_LINK_FLAGS) $(SANITIZER_FLAGS)
 
 # Solvers thread; everything else only vectorises.

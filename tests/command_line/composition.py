@@ -37,8 +37,8 @@ def plugin(folder):
             text = file.read()
         with open(path, "w", encoding="utf-8") as file:
             file.write(text.replace(old, new))
-    built = subprocess.run(["make", f"GAMUT={GAMUT}", f"CC={os.environ.get('CC', 'cc')}",
-                            f"CFLAGS=-I{ROOT}/framework/include"], cwd=folder, text=True,
+    built = subprocess.run(["make", f"GAMUT={GAMUT}", f"PKG_CONFIG_PATH={os.path.dirname(GAMUT)}",
+                            f"CC={os.environ.get('CC', 'cc')}"], cwd=folder, text=True,
                            stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     return report(built.returncode == 0, "an elasticity that asks for short steps builds")
 

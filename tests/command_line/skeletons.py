@@ -3,7 +3,7 @@ import os
 import subprocess
 import tempfile
 
-from tap import GAMUT, ROOT, done, gamut, report
+from tap import GAMUT, done, gamut, report
 
 KINDS = ["eos", "strength", "elasticity", "effect", "random_field", "estimator", "solver"]
 SCENE = """gamut: 1
@@ -21,8 +21,8 @@ quantities:
 
 def make(folder):
     compiler = os.environ.get("CC", "cc")
-    return subprocess.run(["make", f"GAMUT={GAMUT}", f"CC={compiler}",
-                           f"CFLAGS=-I{ROOT}/framework/include -Werror"], cwd=folder, text=True,
+    return subprocess.run(["make", f"GAMUT={GAMUT}", f"PKG_CONFIG_PATH={os.path.dirname(GAMUT)}",
+                           f"CC={compiler}", "CFLAGS=-Werror"], cwd=folder, text=True,
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
 
