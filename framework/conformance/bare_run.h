@@ -4,7 +4,7 @@
 
 #include <gamut/plugin.h>
 
-#include "conformance/proof.h"
+#include "conformance/conformance_private.h"
 
 struct bare_run {
   struct gamut_run_head head; /* first */

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "conformance/proof.h"
+#include "conformance/conformance_private.h"
 
 /* A NaN with a payload that no arithmetic gives. */
 static const uint64_t mark_bits = UINT64_C(0x7ff8dead0badf00d);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "conformance/proof.h"
+#include "conformance/conformance_private.h"
 
 static size_t undocumented(const struct parameter *parameter, size_t count, char *which,
                            size_t size)

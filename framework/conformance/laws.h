@@ -2,7 +2,7 @@
 #ifndef GAMUT_LAWS_H
 #define GAMUT_LAWS_H
 
-#include "conformance/proof.h"
+#include "conformance/conformance_private.h"
 
 struct laws {
   struct specimen eos, strength; /* kernel null: none */

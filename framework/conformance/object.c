@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "conformance/proof.h"
+#include "conformance/conformance_private.h"
 #include "registry/elf.h"
 
 enum library { LIBC, LIBM, OTHER, NOWHERE };

@@ -1,4 +1,4 @@
-#include "conformance/proof.h"
+#include "conformance/conformance_private.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef GAMUT_SCENE_RUN_H
 #define GAMUT_SCENE_RUN_H
 
-#include "conformance/proof.h"
+#include "conformance/conformance_private.h"
 #include "run/run.h"
 
 struct scene_run {

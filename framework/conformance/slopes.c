@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "conformance/proof.h"
+#include "conformance/conformance_private.h"
 
 enum { TRIED = 96, DERIVED = 48 };
 

@@ -1,7 +1,7 @@
 /* The kinds of space that scenes know; what a solver's parameter `geometry` may offer. */
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 
 static const struct geometry known[] = {
     {"1d", 1, false}, {"plane_strain", 2, false}, {"axisymmetric", 2, true}, {"3d", 3, false}};

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 #include "field/catalogue.h"
 
 /* Writes a name as part of a constant's. */

@@ -1,7 +1,7 @@
 #include <assert.h>
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 
 const char *kind_name(enum gamut_kind kind)
 {

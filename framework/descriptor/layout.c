@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 #include "error/memory.h"
 #include "field/catalogue.h"
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 #include "field/catalogue.h"
 
 /* "name" or "name?" or "name: {unit: .., components: ..}" (a sequence item). */

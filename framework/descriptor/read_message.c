@@ -1,7 +1,7 @@
 /* What a kernel can say (messages) and the kernels of an effect (tasks). */
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 
 static bool read_severity(struct reader *reader, const struct tree *node,
                           enum gamut_severity *severity)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 
 #define BIT(type) (1U << (type))
 enum {

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 
 static const struct tree *item_of(const struct tree *list, size_t index)
 {

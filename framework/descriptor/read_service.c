@@ -2,7 +2,7 @@
  * adds to bodies and materials. */
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 #include "field/catalogue.h"
 
 /* Names that a measure's formula may use: components of the fields of the catalogue and of this

@@ -1,4 +1,4 @@
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 
 #include <ctype.h>
 #include <stdarg.h>

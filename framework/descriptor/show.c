@@ -1,7 +1,7 @@
 /* `gamut show`: a plugin's declaration for people. */
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 #include "field/catalogue.h"
 
 /* Text of several lines, each indented; blank lines at the end are left out. */

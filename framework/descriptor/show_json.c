@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "descriptor/reader.h"
+#include "descriptor/descriptor_private.h"
 
 static void set_text(json_t *object, const char *key, const char *text)
 {

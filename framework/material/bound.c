@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "field/catalogue.h"
-#include "material/bound.h"
+#include "material/material_private.h"
 #include "registry/guard.h"
 
 enum { SLACK = 24 };

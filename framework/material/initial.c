@@ -1,7 +1,7 @@
 /* What a body gives its points: temperature, and energy where it gives that or a pressure. */
 #include <math.h>
 
-#include "material/bound.h"
+#include "material/material_private.h"
 
 /* Points the parameters of a law that have a random field at the values of a slot and its
  * neighbours; whether there are any. */

@@ -11,7 +11,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "registry/inside.h"
+#include "registry/registry_private.h"
 #include "tree/load.h"
 
 enum { DIGITS = 2 * SHA256_DIGEST_SIZE, DIGEST_FILE_MAX = 4096 };

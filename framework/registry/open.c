@@ -16,7 +16,7 @@
 #include "error/memory.h"
 #include "registry/elf.h"
 #include "registry/guard.h"
-#include "registry/inside.h"
+#include "registry/registry_private.h"
 
 typedef void (*operation)(void);
 

@@ -5,7 +5,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "registry/inside.h"
+#include "registry/registry_private.h"
 
 static const struct place nowhere = {0};
 

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "registry/inside.h"
+#include "registry/registry_private.h"
 #include "tree/load.h"
 
 #ifndef GAMUT_PLUGIN_FOLDER

@@ -4,7 +4,7 @@
 
 #include "field/catalogue.h"
 #include "registry/guard.h"
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* How often the progress is printed, in wall seconds. */
 static const double progress_every = 0.1;

@@ -3,7 +3,7 @@
 
 #include "field/catalogue.h"
 #include "registry/guard.h"
-#include "run/inside.h"
+#include "run/run_private.h"
 
 static gamut_status make_kernels(struct gamut_run *run, struct running_effect *effect)
 {

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* Sets or adds to the stress. */
 static bool imposes_stress(const struct task *task, const char *owner)

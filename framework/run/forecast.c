@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* Scenes beyond are not started for a check, which stays cheap. */
 static const size_t start_most = (size_t)256 << 20;

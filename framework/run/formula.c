@@ -4,7 +4,7 @@
 
 #include "error/memory.h"
 #include "field/catalogue.h"
-#include "run/inside.h"
+#include "run/run_private.h"
 
 static const char density_name[] = "reference_density";
 

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* The `at: point` measure of that name among a material's elasticity and the solver; or null. */
 static const struct measure *point_measure(const struct descriptor *d, const char *name)

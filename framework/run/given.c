@@ -1,7 +1,7 @@
 /* Values that fields have though no task writes them. */
 #include <string.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* Fields that have values though no task writes them: a body's temperature, what the solver says
  * that it puts out, and parameters with a random field, whose name is a path. */

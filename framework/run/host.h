@@ -4,7 +4,7 @@
 
 #include <stdarg.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* Values: the same for every host. */
 #define HOST_OF_VALUES                                                                             \

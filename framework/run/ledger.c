@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* Growth of stored energy beyond what was supplied that no rounding explains. */
 static const double energy_tolerance = 0.05;

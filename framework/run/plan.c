@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* Bytes a point that the declarations demand: stored components, the id, the spare for sorting. */
 static size_t declared_bytes(const struct gamut_run *run, size_t *stored)

@@ -2,7 +2,7 @@
 #ifndef GAMUT_RUN_RESTART_H
 #define GAMUT_RUN_RESTART_H
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* Arrays "clock" (time, last step, time of the last frame) and "counts" (steps, frames, step of the
  * last frame, bodies, checksum of the frames); "run" is the id of the result that they are in. */

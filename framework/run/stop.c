@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* "position 0.001 0.002 0 m, velocity ..., temperature 298 K": the state that the point had. */
 static void describe_state(const struct gamut_run *run, const struct point_set *set, size_t slot,

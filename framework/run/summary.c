@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 /* JSON has no NaN: such a number is null. */
 static json_t *number(double value)

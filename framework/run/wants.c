@@ -2,7 +2,7 @@
  * `field` of a measure is a field, a component of one, or a measure of the body's points. */
 #include <string.h>
 
-#include "run/inside.h"
+#include "run/run_private.h"
 
 static const struct measure *of_points(const struct gamut_run *run, const struct quantity *quantity,
                                        const char *name)

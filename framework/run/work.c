@@ -1,6 +1,6 @@
 /* Counts of work: what a run did, apart from any clock. They do not depend on threads, so a test
  * can hold them. */
-#include "run/inside.h"
+#include "run/run_private.h"
 
 uint64_t *work_open(struct gamut_run *run, const char *name)
 {

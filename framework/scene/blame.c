@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 void *scene_take(size_t count, size_t size)
 {

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static const char *const own_keys[] = {"material",    "shape",    "velocity",
                                        "temperature", "pressure", "energy"};

@@ -2,7 +2,7 @@
  * in one of them must not make a loop without end or take all memory. */
 #include <math.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 bool count_within(struct reading *reading, const struct tree *node, const char *what, double whole,
                   double part, double most)

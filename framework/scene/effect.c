@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 enum { NAMES_MAX = 10000 };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "field/catalogue.h"
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 struct search {
   const char *wanted; /* null: collect all names */

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <strings.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static const struct {
   const char *name, *instead;

@@ -3,7 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 enum { INCLUDE_DEPTH_MAX = 16, INCLUDES_MAX = 100, ANCESTORS_MAX = 32 };
 

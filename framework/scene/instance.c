@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 /* The node that names the plugin: the value of `model`, or the scalar itself. */
 static const struct tree *model_node(const struct tree *node)

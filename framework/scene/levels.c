@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 /* Keys of a scene that a level may change. */
 static bool may_vary(const char *path)

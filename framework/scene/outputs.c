@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 enum { FIELDS_MAX = 1000 };
 /* More frames or checkpoints than anybody looks at. */

@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static const char *const own_keys[] = {"measure", "effect", "body", "at", "reduce", "every"};
 

@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static const char *const top_keys[] = {"gamut",  "title",   "include",    "solver",  "materials",
                                        "bodies", "effects", "quantities", "outputs", "uncertainty"};

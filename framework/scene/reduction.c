@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static const char forms[] = "at end, at 12 us, max, min, mean, {max: [t0, t1]} (also min, mean, "
                             "slope, time_of_max), or {time_of: VALUE}";

@@ -2,7 +2,7 @@
  * a row by its path, so that the same word elsewhere stays what it is. */
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 enum kind { KEY, MEASURE, FIELD };
 

@@ -6,7 +6,7 @@
 
 #include <jansson.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static json_t *described(json_t *schema, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

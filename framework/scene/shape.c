@@ -1,7 +1,7 @@
 /* Shapes: what lies inside, how far they reach, how large they are. */
 #include <math.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static const double pi = 3.14159265358979323846;
 

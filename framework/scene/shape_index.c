@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 enum { FEW = 8, LEAF = 4 }; /* so many are asked one by one */
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static bool part_read(struct reading *, const struct tree *, const char *what, struct shape *);
 

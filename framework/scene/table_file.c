@@ -8,7 +8,7 @@
 #include <csv.h>
 
 #include "error/memory.h"
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 #include "tree/load.h"
 
 enum { TABLE_BYTES_MAX = 256 << 20, SHOWN = 60 };

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "random/correlation.h"
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 /* All random values of a scene, then put in the order of the file. */
 struct collection {

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 /* Prefixes of the SI that people mix up, and units that they mean but do not write. */
 static const char *const prefix[] = {"", "k", "M", "G", "m", "u", "n", "c"};

@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 double *vector_read(struct reading *reading, const struct tree *node, const char *name,
                     const char *unit, size_t least, size_t most, size_t *count)

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static const char *const kind_names[] = DISTRIBUTION_NAMES;
 static const char *const known_keys[] = {"mean",  "cv",    "sd",       "distribution",

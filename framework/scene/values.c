@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 static bool choice_read(struct reading *reading, const struct parameter *parameter,
                         const struct tree *node, struct value *value)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 
 /* One formula: a derived parameter, or a constraint (target SIZE_MAX). */
 struct rule {

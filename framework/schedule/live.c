@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "schedule/plan.h"
+#include "schedule/schedule_private.h"
 
 static void enliven(struct task *task, const char *format, ...)
     __attribute__((format(printf, 2, 3)));

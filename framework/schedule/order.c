@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "schedule/plan.h"
+#include "schedule/schedule_private.h"
 
 static bool uses_as(const struct task *task, const struct field *field,
                     bool (*test)(enum gamut_access))

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "schedule/plan.h"
+#include "schedule/schedule_private.h"
 
 struct schedule *schedule_new(const char *const *phase, size_t phases)
 {

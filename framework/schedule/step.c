@@ -1,7 +1,7 @@
 #include <stdlib.h>
 
 #include "registry/guard.h"
-#include "schedule/plan.h"
+#include "schedule/schedule_private.h"
 
 #ifdef _OPENMP
 #include <omp.h>

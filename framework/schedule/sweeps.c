@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "schedule/plan.h"
+#include "schedule/schedule_private.h"
 
 /* Whether a task goes on the sweep or begins a new one. */
 static bool joins(const struct sweep *sweep, const struct task *task)

@@ -9,7 +9,7 @@
 #include "store/checkpoint.h"
 #include "store/file.h"
 #include "store/hdf5.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 static const char *const result_files[] = {
     RESULT_HDF5, RESULT_XDMF,     RESULT_HISTORY,      RESULT_SCENE,  RESULT_STUDY,

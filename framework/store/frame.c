@@ -6,7 +6,7 @@
 #include "field/catalogue.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 /* A symmetric tensor, kept as xx yy zz xy yz zx, is written whole: xx xy xz yx yy yz zx zy zz.
  * ParaView's two XDMF readers disagree about six columns; about nine they agree. */

@@ -5,7 +5,7 @@
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 void text_number(struct text *text, double value)
 {

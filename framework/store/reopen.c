@@ -7,7 +7,7 @@
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 /* Copies a frame; the checksum is that of the copy. */
 static bool copy_frame(hid_t from, hid_t to, const char *name, uint64_t *sum)

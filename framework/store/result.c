@@ -10,8 +10,7 @@
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
-#include "store/result_state.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 static size_t count_links(hid_t file, const char *path)
 {

@@ -7,8 +7,7 @@
 #include "error/memory.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"
-#include "store/result_state.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 enum { FIELDS_MAX = 64 };
 

@@ -10,7 +10,7 @@
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 static herr_t make_group(hid_t file, const char *name)
 {

@@ -7,7 +7,7 @@
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 static gamut_status replace_text(struct store *store, const char *file, struct text *text,
                                  struct trace *trace)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "store/file.h"
-#include "store/state.h"
+#include "store/store_private.h"
 
 void text_add(struct text *text, const char *format, ...)
 {

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "error/memory.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 static gamut_status check_run(struct scene *scene, struct registry *registry, struct trace *trace)
 {

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/inside.h"
+#include "study/study_private.h"
 
 /* Axes that differ by rounding are one; a share of their length. */
 static const double same_axis = 1e-12;

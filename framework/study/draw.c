@@ -4,7 +4,7 @@
 
 #include "random/correlation.h"
 #include "random/stream.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 /* A constraint that takes nearly all is no truncation but another study than was meant. */
 enum { TRIALS = 4096, ATTEMPTS_MAX = 10000, CUTS_MAX = 64 };

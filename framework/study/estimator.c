@@ -5,7 +5,7 @@
 #include "random/stream.h"
 #include "registry/guard.h"
 #include "run/host.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 enum { BYTES_A_BATCH = 1 << 26, ROWS_MIN = 16, ROWS_MAX = 4096 };
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "registry/guard.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 enum { RUNS_COUNTED = 1 << 20 };
 

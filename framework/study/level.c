@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 static const struct value *levels_of(const struct study *study)
 {

@@ -18,7 +18,7 @@
 
 #include "error/memory.h"
 #include "store/file.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 enum { SUM_LENGTH = 10 }; /* " ~" and eight digits */
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 /* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends
  * the program leaves it whole. */

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/inside.h"
+#include "study/study_private.h"
 
 /* Curves of single runs are kept up to this many numbers. */
 enum { KEPT_NUMBERS = 1 << 25 };

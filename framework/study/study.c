@@ -7,7 +7,7 @@
 #endif
 
 #include "registry/guard.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 static double now(void)
 {

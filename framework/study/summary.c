@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "study/inside.h"
+#include "study/study_private.h"
 
 /* JSON has neither NaN nor infinity: such a number is null. */
 static json_t *number(double value)

@@ -4,7 +4,7 @@
 #include <time.h>
 
 #include "error/memory.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 static double clock_now(clockid_t clock)
 {

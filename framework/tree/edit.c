@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "error/memory.h"
-#include "tree/node.h"
+#include "tree/tree_private.h"
 
 /* Gives `base` the content of `over` and keeps its seat in the parent and its key; frees the old.
  */

@@ -1,7 +1,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "tree/node.h"
+#include "tree/tree_private.h"
 
 static struct tree *child_numbered(const struct tree *tree, const char *digits, size_t length)
 {

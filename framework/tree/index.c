@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tree/node.h"
+#include "tree/tree_private.h"
 
 enum { FEW = 16 }; /* so many keys are found one by one as fast */
 

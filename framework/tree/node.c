@@ -1,4 +1,4 @@
-#include "tree/node.h"
+#include "tree/tree_private.h"
 
 #include <limits.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include <yaml.h>
 
-#include "tree/node.h"
+#include "tree/tree_private.h"
 
 /* Records the parser's error at its place and returns `blame`. */
 gamut_status problem_report(const yaml_parser_t *, const struct origin *, gamut_status blame,

@@ -4,8 +4,8 @@
 #include <yaml.h>
 
 #include "tree/load.h"
-#include "tree/node.h"
 #include "tree/problem.h"
+#include "tree/tree_private.h"
 
 /* Anchors are looked up one by one, so a file of nothing but anchors would take for ever. */
 enum { ANCHORS_MAX = 1000 };

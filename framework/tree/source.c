@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "tree/node.h"
+#include "tree/tree_private.h"
 
 /* Bytes of the character of UTF-8 at `at`; 0 if the bytes are none. */
 static size_t character(const unsigned char *at, size_t left, uint32_t *code)

@@ -9,7 +9,7 @@
 #include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/result.h"
-#include "store/state.h"
+#include "store/store_private.h"
 #include "tests/fuzz/base_run.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/hdf5_edit.h"

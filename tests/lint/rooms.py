@@ -23,6 +23,13 @@ def room_findings(path, room):
             yield f"{path} includes {target}, which stands above {room}"
 
 
+def private_findings(path, room):
+    for _, target in INCLUDE.findall(tap.read(path)):
+        other, _, name = target.partition("/")
+        if name.endswith("_private.h") and (other != room or name != f"{room}_private.h"):
+            yield f"{path} includes {target}, which is private to {other}"
+
+
 def relative_findings(path):
     for mark, target in INCLUDE.findall(tap.read(path)):
         if mark != '"':
@@ -59,6 +66,8 @@ for room in rooms:
     if room in ROOMS:
         tap.check(f"{room} uses only rooms below it",
                   [f for path in own for f in room_findings(path, room)])
+    tap.check(f"{room} has private headers of its own only",
+              [f for path in own for f in private_findings(path, room)])
     tap.check(f"{room} names headers from framework/",
               [f for path in own for f in relative_findings(path)])
 tap.check("public headers use only public headers",

@@ -8,7 +8,7 @@
 
 #include "bar.h"
 #include "registry/registry.h"
-#include "run/inside.h"
+#include "run/run_private.h"
 #include "scene/scene.h"
 #include "tests/tap.h"
 

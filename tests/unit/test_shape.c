@@ -1,7 +1,7 @@
 /* Shapes: bounds, depth and volume of each, against formulas and against counting. */
 #include <math.h>
 
-#include "scene/reading.h"
+#include "scene/scene_private.h"
 #include "tests/tap.h"
 
 static const double pi = 3.14159265358979323846;

@@ -8,7 +8,7 @@
 #include "random/distribution.h"
 #include "random/stream.h"
 #include "scene/scene.h"
-#include "study/inside.h"
+#include "study/study_private.h"
 
 /* Probability of a standard normal variable below z. */
 static double normal_below(double z)

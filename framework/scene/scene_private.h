@@ -1,6 +1,6 @@
 /* Inside the scene room: what its readers share while one scene is read. */
-#ifndef GAMUT_SCENE_READING_H
-#define GAMUT_SCENE_READING_H
+#ifndef GAMUT_SCENE_PRIVATE_H
+#define GAMUT_SCENE_PRIVATE_H
 
 #include "scene/scene.h"
 

@@ -1,6 +1,6 @@
 /* Inside the conformance room: what the suites of all kinds share. */
-#ifndef GAMUT_PROOF_H
-#define GAMUT_PROOF_H
+#ifndef GAMUT_CONFORMANCE_PRIVATE_H
+#define GAMUT_CONFORMANCE_PRIVATE_H
 
 #include <stdint.h>
 

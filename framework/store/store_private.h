@@ -1,11 +1,12 @@
 /* What the store keeps while it is open. */
-#ifndef GAMUT_STORE_STATE_H
-#define GAMUT_STORE_STATE_H
+#ifndef GAMUT_STORE_PRIVATE_H
+#define GAMUT_STORE_PRIVATE_H
 
 #include <stdio.h>
 
 #include <hdf5.h>
 
+#include "store/result.h"
 #include "store/store.h"
 
 /* Text that grows; `failed` when memory ran out. */
@@ -34,6 +35,13 @@ struct store {
   double *buffer; /* a field of one body, row by row */
   size_t buffer_size;
   struct text xdmf; /* the frames of results.xdmf so far */
+};
+
+/* An open result. */
+struct result {
+  char *path;
+  hid_t file;
+  size_t frames;
 };
 
 /* Names of the files of a result. */

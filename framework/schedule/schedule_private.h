@@ -1,6 +1,6 @@
 /* The inside of a schedule, shared by the files of this room. */
-#ifndef GAMUT_SCHEDULE_PLAN_H
-#define GAMUT_SCHEDULE_PLAN_H
+#ifndef GAMUT_SCHEDULE_PRIVATE_H
+#define GAMUT_SCHEDULE_PRIVATE_H
 
 #include "schedule/schedule.h"
 

@@ -1,6 +1,6 @@
 /* Inside the descriptor room: what its readers share while one YAML file is read. */
-#ifndef GAMUT_DESCRIPTOR_READER_H
-#define GAMUT_DESCRIPTOR_READER_H
+#ifndef GAMUT_DESCRIPTOR_PRIVATE_H
+#define GAMUT_DESCRIPTOR_PRIVATE_H
 
 #include "descriptor/descriptor.h"
 

@@ -1,6 +1,6 @@
 /* The inside of a material in a run. */
-#ifndef GAMUT_BOUND_H
-#define GAMUT_BOUND_H
+#ifndef GAMUT_MATERIAL_PRIVATE_H
+#define GAMUT_MATERIAL_PRIVATE_H
 
 #include "material/law.h"
 

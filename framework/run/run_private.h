@@ -1,6 +1,6 @@
 /* The inside of a run, shared by the files of this room. */
-#ifndef GAMUT_RUN_INSIDE_H
-#define GAMUT_RUN_INSIDE_H
+#ifndef GAMUT_RUN_PRIVATE_H
+#define GAMUT_RUN_PRIVATE_H
 
 #include <jansson.h>
 

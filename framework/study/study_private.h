@@ -1,6 +1,6 @@
 /* The inside of a study, shared by the files of this room. */
-#ifndef GAMUT_STUDY_INSIDE_H
-#define GAMUT_STUDY_INSIDE_H
+#ifndef GAMUT_STUDY_PRIVATE_H
+#define GAMUT_STUDY_PRIVATE_H
 
 #include <gamut/plugin.h>
 

@@ -1,6 +1,6 @@
 /* What a tree is made of behind its public face: nodes own their words and share their source. */
-#ifndef GAMUT_TREE_NODE_H
-#define GAMUT_TREE_NODE_H
+#ifndef GAMUT_TREE_PRIVATE_H
+#define GAMUT_TREE_PRIVATE_H
 
 #include <stdatomic.h>
 

@@ -1,6 +1,6 @@
 /* Inside the registry room. */
-#ifndef GAMUT_REGISTRY_INSIDE_H
-#define GAMUT_REGISTRY_INSIDE_H
+#ifndef GAMUT_REGISTRY_PRIVATE_H
+#define GAMUT_REGISTRY_PRIVATE_H
 
 #include <sys/types.h>
 
