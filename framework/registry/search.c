@@ -192,6 +192,27 @@ static gamut_status add_pairs(const struct search *search, const char *folder, F
   return status;
 }
 
+/* Whether what stands there is no file and no link to one, which is then said. */
+static bool is_odd(const char *file, const char *due, const char *then, struct trace *trace)
+{
+  struct stat info;
+  char why[256] = "it is no file", *text = NULL;
+  size_t size;
+  if (lstat(file, &info) != 0 || is_file(file))
+    return false;
+  text_load(file, 0, &text, &size, why, sizeof why);
+  free(text);
+  const struct place place = {.file = file};
+  trace_warn_at(trace, &place, NULL, due, "%s: %s", then, why);
+  return true;
+}
+
+static bool is_odd_plugin(const char *file, struct trace *trace)
+{
+  return is_odd(file, "a plugin's YAML is a file, or a link to one", "this plugin is skipped",
+                trace);
+}
+
 /* A folder of plugins, or a build tree with its plugins.path. */
 static gamut_status add_folder(const struct search *search, const char *folder)
 {
@@ -199,8 +220,13 @@ static gamut_status add_folder(const struct search *search, const char *folder)
   snprintf(path, sizeof path, "%s/plugins.path", folder);
   FILE *file =
       folder[0] == '/' && (search->in_place || !unsafe(folder, false)) ? text_open(path) : NULL;
+  if (!file && !search->in_place) {
+    is_odd(path, "a plugins.path names the folders of a build tree", "it is passed over",
+           search->trace);
+    return add_root(search, folder, folder);
+  }
   if (!file)
-    return search->in_place ? GAMUT_OK : add_root(search, folder, folder);
+    return GAMUT_OK;
   gamut_status status = add_pairs(search, folder, file);
   fclose(file);
   return status;
@@ -263,22 +289,6 @@ done:
   return status;
 }
 
-/* Whether what stands there is no file and no link to one, which is then said. */
-static bool is_odd(const char *file, struct trace *trace)
-{
-  struct stat info;
-  char why[256] = "it is no file", *text = NULL;
-  size_t size;
-  if (lstat(file, &info) != 0 || is_file(file))
-    return false;
-  text_load(file, 0, &text, &size, why, sizeof why);
-  free(text);
-  const struct place place = {.file = file};
-  trace_warn_at(trace, &place, NULL, "a plugin's YAML is a file, or a link to one",
-                "this plugin is skipped: %s", why);
-  return true;
-}
-
 static gamut_status take_at(struct registry *registry, struct root *root, const char *below,
                             const char *name, struct trace *trace)
 {
@@ -286,7 +296,7 @@ static gamut_status take_at(struct registry *registry, struct root *root, const 
   struct entry *entry = NULL;
   gamut_status status = GAMUT_OK;
   snprintf(file, sizeof file, "%s%s%s/%s.yaml", root->yaml, below[0] ? "/" : "", below, name);
-  if (is_odd(file, trace) || !is_file(file))
+  if (is_odd_plugin(file, trace) || !is_file(file))
     return GAMUT_OK;
   char *objects = path_join(root->objects, below);
   if (!objects)
@@ -327,7 +337,7 @@ static gamut_status take_item(struct registry *registry, struct root *root, cons
   if (length > 5 && strcmp(item + length - 5, ".yaml") == 0) {
     char name[512];
     snprintf(name, sizeof name, "%.*s", (int)(length - 5), item);
-    if (!strchr(name, '.') && !is_odd(path, trace) && claims_to_be_plugin(root->yaml, name))
+    if (!strchr(name, '.') && !is_odd_plugin(path, trace) && claims_to_be_plugin(root->yaml, name))
       status = take_at(registry, root, "", name, trace);
     return status;
   }

@@ -39,6 +39,11 @@ def main():
             code, said = kernels.gamut(["verify", asked], root, timeout=20)
             report(code == 4 and words in said,
                    f"verify {os.path.relpath(asked, root)}: exit {code}, {words}", said)
+        os.mkfifo(os.path.join(root, "plugins.path"))
+        code, said = kernels.gamut(["--plugin-path", root, "list"], root, timeout=20)
+        report(code == 0 and "strength/mine" in said and "plugins.path: warning" in said and
+               "it is passed over: " in said and "a named pipe" in said,
+               f"list: plugins.path, a named pipe: exit {code}", said)
     return finish()
 
 
