@@ -70,6 +70,7 @@ static const struct gamut_host bare_host = {
     .fail_at = bare_fail_at,
     .warn = bare_note,
     HOST_OF_VALUES,
+    HOST_OF_SUMS,
     .allocate = bare_allocate,
     .release = bare_release,
     .threads = bare_threads,

@@ -395,4 +395,5 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .drop = host_drop,
                                     .fail_plane = host_fail_plane,
                                     .count = work_open,
-                                    .body_strength = host_body_strength};
+                                    .body_strength = host_body_strength,
+                                    HOST_OF_SUMS};

@@ -49,6 +49,10 @@ gamut_status host_sample(struct gamut_run *, const struct gamut_values *, const 
 gamut_status host_removal(struct gamut_run *, const struct gamut_removal *,
                           const struct gamut_removed **, double *mark);
 void host_drop(struct gamut_run *, struct gamut_set *, const uint32_t *slot, size_t count);
+/* host_sums.c: the same for every host. */
+#define HOST_OF_SUMS .sum = host_sum, .most = host_most
+void host_sum(struct gamut_run *, const double *value, size_t rows, size_t columns, double *total);
+double host_most(struct gamut_run *, const double *value, size_t count);
 bool host_domain(const struct gamut_run *, double lower[3], double upper[3]);
 
 #endif

@@ -48,6 +48,7 @@ static const struct gamut_host study_host = {
     .fail_at = study_fail_at,
     .warn = study_warn,
     HOST_OF_VALUES,
+    HOST_OF_SUMS,
 };
 
 /* Fixed by the scene alone, so that batches are the same whatever the machine. */

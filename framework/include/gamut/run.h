@@ -60,7 +60,7 @@ struct gamut_field {
 struct gamut_chunk {
   const struct gamut_set *set;
   size_t block;         /* number of the block within its set */
-  size_t serial;        /* number of the block over all sets, in the order of summation */
+  size_t serial;        /* number of the block over all sets; no order of summation: see `sum` */
   size_t slot;          /* first slot of the chunk */
   size_t count;         /* points, a multiple of GAMUT_LANES */
   int thread;           /* 0 to threads - 1 */
@@ -333,6 +333,18 @@ struct gamut_host {
 
   /* Name of the strength of the body's material ("von_mises"); null where it has none. */
   const char *(*body_strength)(const struct gamut_run *, const struct gamut_body *);
+
+  /* Sums over blocks. A plugin adds serially over the points of a chunk or a block only; what
+   * blocks have it puts into a table, a row a block, and `sum` adds up each of its columns: exactly
+   * and rounded once to the nearest double, so that no bit of total[0] to total[columns - 1]
+   * depends on the order of the rows, on how points are numbered or who did the work. No rows sum
+   * to 0; an infinity or no number in a column makes its sum no number; a sum too large for a
+   * double is an infinity. About 25 instructions a value; nothing is allocated. One thread calls it
+   * at a time, in a task GAMUT_ONCE or outside a step, never in a chunk's task. */
+  void (*sum)(struct gamut_run *, const double *value, size_t rows, size_t columns, double *total);
+  /* The largest of `count` values, under the same rules: minus infinity of none, no number if there
+   * is one. For the least, turn the signs. */
+  double (*most)(struct gamut_run *, const double *value, size_t count);
 };
 
 /* Every run begins with its host; the rest is the core's. */
@@ -428,5 +440,8 @@ static inline gamut_status gamut_read_plane(struct gamut_run *run, const struct 
 #define gamut_time(run) (GAMUT_HOST(run)->time(run))
 #define gamut_time_step(run) (GAMUT_HOST(run)->time_step(run))
 #define gamut_threads(run) (GAMUT_HOST(run)->threads(run))
+#define gamut_sum(run, value, rows, columns, total)                                                \
+  (GAMUT_HOST(run)->sum((run), (value), (rows), (columns), (total)))
+#define gamut_most(run, value, count) (GAMUT_HOST(run)->most((run), (value), (count)))
 
 #endif

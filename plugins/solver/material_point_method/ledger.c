@@ -126,10 +126,7 @@ static void show_taken(const struct model *m)
 
 void ledger_add_up(const struct model *m, double total[POINT_SUMS])
 {
-  memset(total, 0, POINT_SUMS * sizeof *total);
-  for (size_t s = 0; s < m->grid.sources; s++)
-    for (size_t q = 0; q < POINT_SUMS; q++)
-      total[q] += m->block_sum[s * POINT_SUMS + q];
+  gamut_sum(m->run, m->block_sum, m->grid.sources, POINT_SUMS, total);
 }
 
 static void show_stored(struct model *m)
@@ -170,12 +167,12 @@ void ledger_keep(struct model *m, double step)
   *l->external_work += external;
   *l->plane_work += m->planes.work;
   *l->impact_loss += m->planes.loss;
-  *l->scatter_loss += was[SUM_KINETIC] - m->nodes.kinetic_before;
-  *l->gather_loss += m->nodes.kinetic_after - (l->now[SUM_KINETIC] + gone[GONE_KINETIC]);
+  *l->scatter_loss += was[SUM_KINETIC] - m->nodes.sum[NODE_BEFORE];
+  *l->gather_loss += m->nodes.sum[NODE_AFTER] - (l->now[SUM_KINETIC] + gone[GONE_KINETIC]);
   const double gain = l->now[SUM_INTERNAL] + gone[GONE_INTERNAL] - was[SUM_INTERNAL];
   const double stagger = *l->stagger;
   *l->stagger = -0.5 * gain;
-  *l->remainder += external - m->nodes.work - gain - (*l->stagger - stagger);
+  *l->remainder += external - m->nodes.sum[NODE_WORK] - gain - (*l->stagger - stagger);
   for (unsigned k = 0; k < 3; k++) {
     if (l->forward[k] != NULL) {
       *l->external_impulse[k] += step * was[SUM_FORCE + k];
@@ -186,7 +183,8 @@ void ledger_keep(struct model *m, double step)
       *l->external_torque[k] += step * was[SUM_TORQUE + k];
       *l->plane_round[k] += m->planes.round[k];
       *l->plane_back_round[k] += m->planes.back_round[k];
-      *l->spin_loss[k] += m->nodes.spin_after[k] - (l->now[SUM_SPIN + k] + gone[GONE_SPIN + k]);
+      const double back = l->now[SUM_SPIN + k] + gone[GONE_SPIN + k];
+      *l->spin_loss[k] += m->nodes.sum[NODE_SPIN + k] - back;
     }
   }
 }

@@ -39,12 +39,13 @@ enum point_sum {
   POINT_SUMS
 };
 
-/* Sums over nodes of one grid update. */
-struct node_sums {
-  double kinetic_before, kinetic_after;
-  double work; /* of all forces */
-  double spin_after[3];
-  double speed;   /* fastest component */
+/* Most numbers a point that a measure adds up. */
+enum { MEASURED = 2 };
+
+/* Room for rows of sums, by numbers. */
+struct totals {
+  double *measured; /* a row a block of points, of one measure */
+  size_t measured_capacity, most_capacity, sum_capacity, node_capacity, speed_capacity;
 };
 
 struct body {
@@ -115,12 +116,12 @@ struct model {
   double *filter_line; /* XPIC: as grid.line, for what is filtered */
   size_t filter_capacity;
 
-  double *block_sum;   /* POINT_SUMS a block of points */
+  double *block_sum; /* POINT_SUMS a block of points */
   struct block_most *block_most;
-  size_t block_capacity;
-  struct node_sums *node_sum; /* one a block of nodes */
-  size_t node_capacity;
-  struct node_sums nodes;   /* of the last update */
+  double *node_sum;   /* NODE_SUMS a block of nodes */
+  double *node_speed; /* one a block of nodes */
+  struct totals totals;
+  struct nodes nodes; /* of the last update */
 
   bool collected;       /* the grid holds this step's sums already */
   double moved;         /* farthest that a point can have gone since the sort, cells */
@@ -186,8 +187,15 @@ gamut_status ledger_open(struct model *);
 gamut_status ledger_open_taker(struct model *, struct taker *);
 void ledger_start(struct model *);
 void ledger_keep(struct model *, double step);
-/* Sums over all points, block by block. */
+/* Sums over all points. */
 void ledger_add_up(const struct model *, double total[POINT_SUMS]);
+
+/* totals.c */
+/* Room for sums, after blocks of points and nodes have changed. */
+gamut_status totals_room(struct model *);
+/* The same for what planes sum, after they have found their nodes. */
+gamut_status totals_planes_room(struct model *);
+void totals_destroy(struct model *);
 
 /* points/measures.c */
 gamut_status measure_value(struct model *, const char *name, const struct gamut_body *,

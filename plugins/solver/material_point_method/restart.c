@@ -31,7 +31,7 @@ static void pass(struct archive *a, void *data, size_t bytes)
 static void pass_layout(const struct model *m, struct archive *a)
 {
   const uint64_t own[] = {sizeof(struct node_block), sizeof(struct source),
-                          sizeof(struct node_sums),  POINT_SUMS,
+                          sizeof(struct nodes),      POINT_SUMS,
                           LINE,                      m->grid.tile_nodes,
                           m->grid.block_nodes,       m->planes.count,
                           m->removal.takers};
@@ -71,7 +71,7 @@ static void pass_box(struct model *m, size_t index, struct archive *a)
     a->failed = grid_leave(g, index, tile) != GAMUT_OK;
 }
 
-/* Makes the grid anew, block by block in the old order: sums over nodes follow it. */
+/* Makes the grid anew, block by block in the old order. */
 static void pass_grid(struct model *m, struct archive *a)
 {
   struct grid *g = &m->grid;
@@ -100,25 +100,6 @@ static void pass_grid(struct model *m, struct archive *a)
     a->failed |= grid_forget_boxes(g) != GAMUT_OK;
   for (size_t s = 0; s < sources && !a->failed; s++)
     pass_box(m, s, a);
-}
-
-static void room_for_sums(struct model *m, struct archive *a)
-{
-  if (m->grid.sources > m->block_capacity) {
-    gamut_release(m->run, m->block_sum);
-    gamut_release(m->run, m->block_most);
-    m->block_capacity = m->grid.sources;
-    m->block_sum =
-        gamut_allocate(m->run, "sums", m->block_capacity * POINT_SUMS * sizeof *m->block_sum);
-    m->block_most = gamut_allocate(m->run, "sums", m->block_capacity * sizeof *m->block_most);
-  }
-  if (m->grid.blocks > m->node_capacity) {
-    gamut_release(m->run, m->node_sum);
-    m->node_capacity = m->grid.blocks;
-    m->node_sum = gamut_allocate(m->run, "sums", m->node_capacity * sizeof *m->node_sum);
-  }
-  a->failed |= m->block_sum == NULL || m->block_most == NULL || m->node_sum == NULL ||
-               removal_room(m) != GAMUT_OK;
 }
 
 /* What left the run so far; sums of single steps are empty between two of them. */
@@ -195,7 +176,7 @@ static void pass_model(struct model *m, struct archive *a)
   pass(a, &m->grid.empty, sizeof m->grid.empty);
   pass_grid(m, a);
   if (a->from != NULL && !a->failed)
-    room_for_sums(m, a);
+    a->failed = totals_room(m) != GAMUT_OK;
   if (a->failed)
     return;
   pass(a, m->block_sum, m->grid.sources * POINT_SUMS * sizeof *m->block_sum);

@@ -57,9 +57,7 @@ static void destroy(void *self)
   gamut_release(run, m->work);
   gamut_release(run, m->filter_line);
   gamut_release(run, m->body);
-  gamut_release(run, m->block_sum);
-  gamut_release(run, m->block_most);
-  gamut_release(run, m->node_sum);
+  totals_destroy(m);
   gamut_release(run, m);
 }
 

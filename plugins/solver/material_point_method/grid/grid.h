@@ -27,6 +27,21 @@ enum { LINE_MASS = 0, LINE_MOMENTUM = 1, LINE_FORCE = 4, LINE_SQUARE = 7 };
  * re-projected one. */
 enum { LINE_VELOCITY = 0, LINE_CHANGE = 3, LINE_SHARE = 6, LINE_SLOW = 7 };
 
+/* Sums over the nodes of a block in one grid update. */
+enum node_sum {
+  NODE_BEFORE, /* kinetic energy */
+  NODE_AFTER,
+  NODE_WORK, /* of all forces */
+  NODE_SPIN, /* moment of momentum after it */
+  NODE_SUMS = NODE_SPIN + 3
+};
+
+/* All nodes of one grid update. */
+struct nodes {
+  double sum[NODE_SUMS];
+  double speed; /* fastest component */
+};
+
 struct node_block {
   int32_t at[3]; /* its place, in blocks */
   int32_t

@@ -323,29 +323,6 @@ static gamut_status sort_sets(struct model *m, const struct sorting *s, struct p
 /* ---- the grid ---------------------------------------------------------------------------------
  */
 
-static gamut_status room_for_sums(struct model *m)
-{
-  if (m->grid.sources > m->block_capacity) {
-    const size_t capacity = m->grid.sources + m->grid.sources / 8 + 16;
-    gamut_release(m->run, m->block_sum);
-    gamut_release(m->run, m->block_most);
-    m->block_sum = gamut_allocate(m->run, "sums", capacity * POINT_SUMS * sizeof *m->block_sum);
-    m->block_most = gamut_allocate(m->run, "sums", capacity * sizeof *m->block_most);
-    m->block_capacity = m->block_sum != NULL && m->block_most != NULL ? capacity : 0;
-    if (m->block_capacity == 0)
-      return GAMUT_INTERNAL;
-  }
-  if (m->grid.blocks > m->node_capacity) {
-    const size_t capacity = m->grid.blocks + m->grid.blocks / 8 + 16;
-    gamut_release(m->run, m->node_sum);
-    m->node_sum = gamut_allocate(m->run, "sums", capacity * sizeof *m->node_sum);
-    m->node_capacity = m->node_sum != NULL ? capacity : 0;
-    if (m->node_capacity == 0)
-      return GAMUT_INTERNAL;
-  }
-  return removal_room(m);
-}
-
 /* The grid around these places, with a source in each. */
 static gamut_status build_grid(struct model *m, const struct place *list, size_t sources)
 {
@@ -386,7 +363,7 @@ gamut_status sort_points(struct model *m)
     status = build_grid(m, list, sources);
   gamut_release(m->run, list);
   if (status == GAMUT_OK)
-    status = room_for_sums(m);
+    status = totals_room(m);
   if (status == GAMUT_OK)
     status = planes_find(m);
   m->moved = 0.0;

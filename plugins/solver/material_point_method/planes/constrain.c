@@ -308,6 +308,7 @@ gamut_status planes_after_update(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
   find_rest(m);
+  planes_begin_sums(m);
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
     contact_begin(p);
@@ -323,7 +324,7 @@ gamut_status planes_after_update(struct model *m, double step)
       node->contact = line[LINE_SHARE] > (p->given.unilateral ? m->grid.empty : 0.0) &&
                       hold(p, line, t->force, step, arrives);
       if (node->contact && at)
-        contact_add(m, p, t);
+        contact_add(m, i, t);
     }
   }
   for (size_t i = ps->count; i-- > 0;) {
@@ -342,7 +343,7 @@ gamut_status planes_after_update(struct model *m, double step)
         stop_arrival(m, p, &p->column[c]);
       if (p->given.friction > 0.0)
         column_friction(m, p, &p->column[c], step);
-      contact_add(m, p, on);
+      contact_add(m, i, on);
     }
   }
   give_rest(m);

@@ -171,6 +171,7 @@ static gamut_status touch(struct model *m, const int32_t node[3], size_t plane, 
     memset(t, 0, sizeof *t);
     t->block = (int32_t)(b - m->grid.block);
     t->index = (int32_t)index;
+    t->row = b->planes / (int32_t)m->grid.block_nodes;
     t->first = (int8_t)plane;
     t->owner[0] = t->owner[1] = t->owner[2] = -1;
     node_place(m, node, t->x);
@@ -276,5 +277,5 @@ gamut_status planes_find(struct model *m)
       if (ps->touched[t].owner[k] < 0)
         ps->touched[t].owner[k] = ps->touched[t].first;
   m->grid.opened = false;
-  return GAMUT_OK;
+  return totals_planes_room(m);
 }

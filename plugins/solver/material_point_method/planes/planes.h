@@ -21,6 +21,19 @@ struct model;
 
 enum { PLANES_MAX = 64, BEFORE = 0, ON = 1, BEHIND = 2 };
 
+/* Sums over the touched nodes of a block, which are left out of its other sums. */
+enum plane_sum {
+  PLANE_NODES, /* what updates sum at all others */
+  PLANE_WORK = PLANE_NODES + NODE_SUMS,
+  PLANE_LOSS,
+  PLANE_ROUND,
+  PLANE_BACK_ROUND = PLANE_ROUND + 3,
+  PLANE_SUMS = PLANE_BACK_ROUND + 3
+};
+
+/* After these, for each plane. */
+enum each_plane_sum { EACH_WORK, EACH_AREA, EACH_MASS, EACH_PLANE_SUMS };
+
 /* Nodes across a plane that is made by images; -1 where there is none. */
 struct column {
   int32_t node[3];    /* the one on the plane */
@@ -40,6 +53,7 @@ struct held_node {
 struct touched {
   int32_t block; /* of nodes */
   int32_t index; /* in the block */
+  int32_t row;   /* of the block's sums */
   double x[3];
   double mass;
   union {
@@ -87,6 +101,8 @@ struct planes {
   size_t touches, touched_capacity;
   int32_t *of_node; /* numbers of touched nodes, or -1, of the blocks that have some */
   size_t of_nodes, of_node_capacity;
+  double *row; /* sums of the blocks that have touched nodes */
+  size_t row_capacity;
   double work,
       loss; /* by moving planes on the material, and by impact and friction, in this step */
   /* what planes gave in this step, and moments of it about the origin, by the sign: the material of
@@ -106,7 +122,9 @@ gamut_status planes_after_update(struct model *, double step);
 /* The same for the second pass of MUSL: momentum and mass, then velocity. */
 void planes_before_second(struct model *);
 void planes_after_second(struct model *);
-/* reaction.c: books momentum given and work of the step, remembers contact. */
+/* reaction.c: sums over touched nodes begin anew. */
+void planes_begin_sums(struct model *);
+/* Books momentum given and work of the step, remembers contact. */
 gamut_status planes_book(struct model *, double step);
 /* xpic: the nodes' momentum as a pass left it; and, when planes have acted on it, what of that the
  * points get by `weight`. */
@@ -118,7 +136,7 @@ void planes_report(struct model *, double step);
 /* reaction.c: the area in contact, begun anew in each step, by the nodes that are. */
 void contact_begin(struct plane *);
 void contact_see(const struct model *, struct plane *, const struct touched *);
-void contact_add(const struct model *, struct plane *, const struct touched *);
+void contact_add(struct model *, size_t plane, const struct touched *);
 /* Line of the touched node of that number; null for -1. */
 double *touched_line(const struct model *, int32_t touched);
 /* Signed distance of a place from a plane, positive where material may be. */

@@ -24,6 +24,27 @@ static double node_area(const struct model *m, const struct plane *p, const doub
   return h * h;
 }
 
+/* Numbers in a row of sums: of all planes, and of each. */
+static size_t columns_of(const struct model *m)
+{
+  return PLANE_SUMS + EACH_PLANE_SUMS * m->planes.count;
+}
+
+static double *row_of(const struct model *m, const struct touched *t)
+{
+  return m->planes.row + (size_t)t->row * columns_of(m);
+}
+
+static size_t rows_of(const struct model *m)
+{
+  return m->planes.of_nodes / m->grid.block_nodes;
+}
+
+void planes_begin_sums(struct model *m)
+{
+  memset(m->planes.row, 0, rows_of(m) * columns_of(m) * sizeof *m->planes.row);
+}
+
 void contact_begin(struct plane *p)
 {
   p->area = p->contact_mass = p->densest = p->axis_area = 0.0;
@@ -45,14 +66,16 @@ void contact_see(const struct model *m, struct plane *p, const struct touched *t
  * contact over that of a node, by its area, that is full, as the heaviest of the plane is taken to
  * be, in contact or not; a node on the axis counts with its own area. Not for an oblique plane,
  * whose nodes lie at different depths: there as many count as do on average. */
-void contact_add(const struct model *m, struct plane *p, const struct touched *t)
+void contact_add(struct model *m, size_t plane, const struct touched *t)
 {
+  struct plane *p = m->planes.plane[plane];
   const double area = node_area(m, p, t->x);
-  p->area += area;
+  double *row = row_of(m, t) + PLANE_SUMS + EACH_PLANE_SUMS * plane;
+  row[EACH_AREA] += area;
   if (on_axis(m, p, t))
     p->axis_area = area;
   else
-    p->contact_mass += t->mass;
+    row[EACH_MASS] += t->mass;
 }
 
 static double contact_area(const struct plane *p)
@@ -62,14 +85,14 @@ static double contact_area(const struct plane *p)
   return p->axis_area + (p->densest > 0.0 ? p->contact_mass / p->densest : 0.0);
 }
 
-/* Books what planes did at the nodes they touch; these nodes are left out of the other sums. */
+/* Books what planes did at the nodes they touch. */
 static void book_nodes(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
   for (size_t i = 0; i < ps->touches; i++) {
     struct touched *t = &ps->touched[i];
     const double *line = touched_line(m, (int32_t)i);
-    double after[3];
+    double after[3], *row = row_of(m, t), *each = row + PLANE_SUMS;
     memset(t->given, 0, sizeof t->given);
     if (t->mass == 0.0)
       continue;
@@ -77,13 +100,13 @@ static void book_nodes(struct model *m, double step)
       const double v = line[LINE_VELOCITY + k], whole = line[LINE_CHANGE + k];
       const double change = whole - t->rest[k], old = v - change, mean = v - 0.5 * change;
       const double own = t->mass * whole - step * t->force[k];
-      struct plane *p = ps->plane[t->owner[k]];
-      m->nodes.kinetic_before += 0.5 * t->mass * old * old;
-      m->nodes.kinetic_after += 0.5 * t->mass * v * v;
-      m->nodes.work += (step * t->force[k] - t->mass * t->rest[k]) * mean;
-      ps->work += own * p->given.velocity[k];
-      ps->loss += own * (p->given.velocity[k] - mean);
-      p->reaction->work += own * p->given.velocity[k];
+      const struct plane *p = ps->plane[t->owner[k]];
+      row[PLANE_NODES + NODE_BEFORE] += 0.5 * t->mass * old * old;
+      row[PLANE_NODES + NODE_AFTER] += 0.5 * t->mass * v * v;
+      row[PLANE_NODES + NODE_WORK] += (step * t->force[k] - t->mass * t->rest[k]) * mean;
+      row[PLANE_WORK] += own * p->given.velocity[k];
+      row[PLANE_LOSS] += own * (p->given.velocity[k] - mean);
+      each[EACH_PLANE_SUMS * (size_t)t->owner[k] + EACH_WORK] += own * p->given.velocity[k];
       t->given[k] = own + m->pic * (t->mass * old - t->momentum[k]);
       after[k] = t->momentum[k] + t->mass * whole;
       m->nodes.speed = fmax(m->nodes.speed, fabs(v));
@@ -92,10 +115,30 @@ static void book_nodes(struct model *m, double step)
       const int a = (k + 1) % 3, b = (k + 2) % 3;
       const double moment = t->x[a] * (after[b] - t->momentum[b] - step * t->force[b]) -
                             t->x[b] * (after[a] - t->momentum[a] - step * t->force[a]);
-      ps->round[k] += fmax(moment, 0.0);
-      ps->back_round[k] += fmin(moment, 0.0);
-      m->nodes.spin_after[k] += t->x[a] * after[b] - t->x[b] * after[a];
+      row[PLANE_ROUND + k] += fmax(moment, 0.0);
+      row[PLANE_BACK_ROUND + k] += fmin(moment, 0.0);
+      row[PLANE_NODES + NODE_SPIN + k] += t->x[a] * after[b] - t->x[b] * after[a];
     }
+  }
+}
+
+/* Adds up what the blocks with touched nodes have. */
+static void add_rows(struct model *m)
+{
+  struct planes *ps = &m->planes;
+  double total[PLANE_SUMS + EACH_PLANE_SUMS * PLANES_MAX];
+  gamut_sum(m->run, ps->row, rows_of(m), columns_of(m), total);
+  for (int q = 0; q < NODE_SUMS; q++)
+    m->nodes.sum[q] += total[PLANE_NODES + q];
+  ps->work = total[PLANE_WORK];
+  ps->loss = total[PLANE_LOSS];
+  memcpy(ps->round, total + PLANE_ROUND, sizeof ps->round);
+  memcpy(ps->back_round, total + PLANE_BACK_ROUND, sizeof ps->back_round);
+  for (size_t i = 0; i < ps->count; i++) {
+    const double *each = total + PLANE_SUMS + EACH_PLANE_SUMS * i;
+    ps->plane[i]->reaction->work += each[EACH_WORK];
+    ps->plane[i]->area = each[EACH_AREA];
+    ps->plane[i]->contact_mass = each[EACH_MASS];
   }
 }
 
@@ -116,10 +159,8 @@ static gamut_status remember(struct model *m, struct plane *p)
 gamut_status planes_book(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
-  ps->work = ps->loss = 0.0;
-  memset(ps->round, 0, sizeof ps->round);
-  memset(ps->back_round, 0, sizeof ps->back_round);
   book_nodes(m, step);
+  add_rows(m);
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
     p->reaction->area = p->area = contact_area(p);
@@ -236,19 +277,31 @@ static void give_back(struct model *m)
     }
 }
 
+/* A row a block of touched nodes, of three numbers a plane. */
+static void add_impulses(struct model *m)
+{
+  struct planes *ps = &m->planes;
+  const size_t columns = 3 * ps->count;
+  double total[3 * PLANES_MAX];
+  memset(ps->row, 0, rows_of(m) * columns * sizeof *ps->row);
+  for (size_t i = 0; i < ps->touches; i++) {
+    const struct touched *t = &ps->touched[i];
+    double *row = ps->row + (size_t)t->row * columns;
+    for (size_t k = 0; k < 3; k++)
+      row[3 * (size_t)t->owner[k] + k] += t->given[k];
+  }
+  gamut_sum(m->run, ps->row, rows_of(m), columns, total);
+  for (size_t i = 0; i < ps->count; i++)
+    memcpy(ps->plane[i]->impulse, total + 3 * i, sizeof ps->plane[i]->impulse);
+}
+
 void planes_report(struct model *m, double step)
 {
   struct planes *ps = &m->planes;
   give_back(m);
   memset(ps->forward, 0, sizeof ps->forward);
   memset(ps->backward, 0, sizeof ps->backward);
-  for (size_t i = 0; i < ps->count; i++)
-    memset(ps->plane[i]->impulse, 0, sizeof ps->plane[i]->impulse);
-  for (size_t i = 0; i < ps->touches; i++)
-    for (int k = 0; k < 3; k++) {
-      const struct touched *t = &ps->touched[i];
-      ps->plane[t->owner[k]]->impulse[k] += t->given[k];
-    }
+  add_impulses(m);
   for (size_t i = 0; i < ps->count; i++)
     for (int k = 0; k < 3; k++) {
       struct plane *p = ps->plane[i];

@@ -197,118 +197,183 @@ static double sample(const struct cloud *c, const double *field, const double *p
   return -(c->stress[0][i] + c->stress[1][i] + c->stress[2][i]) / 3.0 - (part ? part[i] : 0.0);
 }
 
-enum reduce { FRONT, MEAN, MAXIMUM };
+struct sampled {
+  const double *field, *part;
+};
 
-/* Highest place, along an axis, of a point whose field is beyond the level; mean by volume;
- * maximum. */
-static gamut_status over_field(struct model *m, const struct cloud *c, enum reduce how,
-                               const struct gamut_values *arguments, double *value)
+/* Highest place, along an axis, of a point whose field is beyond the level; where there is none,
+ * the body's lowest point. */
+static gamut_status front(struct model *m, const struct cloud *c,
+                          const struct gamut_values *arguments, double *value)
 {
-  const char *name = gamut_text(arguments, "field");
-  const double *field = NULL, *viscous = NULL;
-  double sum = 0.0, weight = 0.0, most = -INFINITY;
-  const gamut_status status = field_pointer(m, c, name, &field, &viscous);
+  struct sampled s;
+  const gamut_status status =
+      field_pointer(m, c, gamut_text(arguments, "field"), &s.field, &s.part);
   if (status != GAMUT_OK)
     return status;
-  const int axis = how == FRONT ? (int)material_point_method_front_axis_of(arguments) : 0;
-  const bool given = how == FRONT && gamut_given(arguments, "level");
-  const double level = given ? gamut_real(arguments, "level") : 0.0;
+  const double *x = c->x[material_point_method_front_axis_of(arguments)];
+  const double level = gamut_given(arguments, "level") ? gamut_real(arguments, "level") : 0.0;
+  double most = -INFINITY, lowest = INFINITY;
   for (size_t i = 0; i < c->set->slots; i++) {
     if (c->set->id[i] < 0)
       continue;
-    const double here = sample(c, field, viscous, i), volume = c->mass[i] * c->ratio[i];
-    if (how == FRONT) {
-      if (here >= level && c->x[axis][i] > most)
-        most = c->x[axis][i];
-      sum = c->x[axis][i] < sum || weight == 0.0 ? c->x[axis][i] : sum;
-      weight = 1.0;
-    } else {
-      most = here > most ? here : most;
-      sum += volume * here;
-      weight += volume;
-    }
+    if (sample(c, s.field, s.part, i) >= level && x[i] > most)
+      most = x[i];
+    lowest = x[i] < lowest ? x[i] : lowest;
   }
-  if (how == FRONT && !isfinite(most))
-    most = sum; /* nowhere yet: the body's lowest point */
-  /* a body that has lost all its points has no such value */
-  *value = c->set->points == 0 ? NAN : how == MEAN ? sum / weight : most;
+  *value = c->set->points == 0 ? NAN : isfinite(most) ? most : lowest;
   return GAMUT_OK;
+}
+
+static gamut_status maximum(struct model *m, const struct cloud *c,
+                            const struct gamut_values *arguments, double *value)
+{
+  struct sampled s;
+  const gamut_status status =
+      field_pointer(m, c, gamut_text(arguments, "field"), &s.field, &s.part);
+  double most = -INFINITY;
+  if (status != GAMUT_OK)
+    return status;
+  for (size_t i = 0; i < c->set->slots; i++) {
+    const double here = c->set->id[i] >= 0 ? sample(c, s.field, s.part, i) : -INFINITY;
+    most = here > most ? here : most;
+  }
+  *value = c->set->points == 0 ? NAN : most;
+  return GAMUT_OK;
+}
+
+/* What point i adds to MEASURED sums. */
+typedef void add_point(const struct model *, const struct cloud *, const void *how, size_t i,
+                       double *sum);
+
+/* Sums over the points of a body: block by block, in the order of slots, then over blocks. */
+static void add_up(struct model *m, const struct cloud *c, add_point *add, const void *how,
+                   double total[MEASURED])
+{
+  const struct gamut_set *set = c->set;
+  for (size_t b = 0; b < set->blocks; b++) {
+    double *row = m->totals.measured + b * MEASURED;
+    memset(row, 0, MEASURED * sizeof *row);
+    for (size_t i = set->first[b]; i < set->first[b + 1]; i++)
+      if (set->id[i] >= 0)
+        add(m, c, how, i, row);
+  }
+  gamut_sum(m->run, m->totals.measured, set->blocks, MEASURED, total);
+}
+
+static void add_sample(const struct model *m, const struct cloud *c, const void *how, size_t i,
+                       double *sum)
+{
+  const struct sampled *s = how;
+  const double volume = c->mass[i] * c->ratio[i];
+  (void)m;
+  sum[0] += volume * sample(c, s->field, s->part, i);
+  sum[1] += volume;
+}
+
+/* By volume; a body that has lost all its points has none. */
+static gamut_status mean(struct model *m, const struct cloud *c,
+                         const struct gamut_values *arguments, double *value)
+{
+  struct sampled s;
+  double sum[MEASURED];
+  const gamut_status status =
+      field_pointer(m, c, gamut_text(arguments, "field"), &s.field, &s.part);
+  if (status != GAMUT_OK)
+    return status;
+  add_up(m, c, add_sample, &s, sum);
+  *value = c->set->points == 0 ? NAN : sum[0] / sum[1];
+  return GAMUT_OK;
+}
+
+static void add_long(const struct model *m, const struct cloud *c, const void *how, size_t i,
+                     double *sum)
+{
+  const double *const *length = how;
+  bool beyond = false;
+  (void)c;
+  for (unsigned k = 0; k < m->dimension; k++)
+    beyond |= length[k][i] > m->cell * (1.0 + 1e-9);
+  sum[0] += beyond;
 }
 
 static gamut_status long_domains(struct model *m, const struct cloud *c, double *value)
 {
   const double *length[3];
+  double sum[MEASURED];
   if (m->shape != SHAPE_GIMP)
     return gamut_fail(m->run, GAMUT_SCENE, "only with shape gimp have points domains");
   for (unsigned k = 0; k < m->dimension; k++)
     length[k] = m->host->stored(c->set, m->field.domain_length, k);
-  *value = 0.0;
-  for (size_t i = 0; i < c->set->slots; i++) {
-    bool beyond = false;
-    for (unsigned k = 0; k < m->dimension; k++)
-      beyond |= length[k][i] > m->cell * (1.0 + 1e-9);
-    *value += c->set->id[i] >= 0 && beyond;
-  }
+  add_up(m, c, add_long, length, sum);
+  *value = sum[0];
   return GAMUT_OK;
 }
 
-enum total { MASS, MOMENTUM, KINETIC, INTERNAL };
-
-static double total(const struct cloud *c, enum total what, int axis)
+/* Mass, and momentum along an axis. */
+static void add_momentum(const struct model *m, const struct cloud *c, const void *how, size_t i,
+                         double *sum)
 {
-  double sum = 0.0;
-  for (size_t i = 0; i < c->set->slots; i++) {
-    const double mass = c->mass[i];
-    if (c->set->id[i] < 0)
-      continue;
-    if (what == MASS)
-      sum += mass;
-    else if (what == MOMENTUM)
-      sum += mass * c->v[axis][i];
-    else if (what == KINETIC)
-      sum += 0.5 * mass *
-             (c->v[0][i] * c->v[0][i] + c->v[1][i] * c->v[1][i] + c->v[2][i] * c->v[2][i]);
-    else if (c->energy != NULL)
-      sum += mass / c->body->density * c->energy[i];
-  }
-  return sum;
+  const int *axis = how;
+  (void)m;
+  sum[0] += c->mass[i];
+  sum[1] += c->mass[i] * c->v[*axis][i];
+}
+
+/* Kinetic and internal. */
+static void add_energy(const struct model *m, const struct cloud *c, const void *how, size_t i,
+                       double *sum)
+{
+  const double mass = c->mass[i], u = c->v[0][i], v = c->v[1][i], w = c->v[2][i];
+  (void)m;
+  (void)how;
+  sum[0] += 0.5 * mass * (u * u + v * v + w * w);
+  if (c->energy != NULL)
+    sum[1] += mass / c->body->density * c->energy[i];
 }
 
 gamut_status measure_value(struct model *m, const char *name, const struct gamut_body *body,
                            const struct gamut_values *arguments, double *value)
 {
   const struct cloud c = cloud_of(m, body);
-  int axis;
+  double sum[MEASURED];
+  int axis = 0;
   switch (material_point_method_measure_of(name)) {
   case MATERIAL_POINT_METHOD_MEASURE_EXTENT:
     return extent(m, &c, (int)material_point_method_extent_axis_of(arguments), value);
   case MATERIAL_POINT_METHOD_MEASURE_DIAMETER:
     return diameter(m, &c, arguments, value);
   case MATERIAL_POINT_METHOD_MEASURE_FRONT:
-    return over_field(m, &c, FRONT, arguments, value);
+    return front(m, &c, arguments, value);
   case MATERIAL_POINT_METHOD_MEASURE_MEAN:
-    return over_field(m, &c, MEAN, arguments, value);
+    return mean(m, &c, arguments, value);
   case MATERIAL_POINT_METHOD_MEASURE_MAXIMUM:
-    return over_field(m, &c, MAXIMUM, arguments, value);
+    return maximum(m, &c, arguments, value);
   case MATERIAL_POINT_METHOD_MEASURE_FRAGMENTS:
     return body_fragments(m, c.set, value);
   case MATERIAL_POINT_METHOD_MEASURE_LONG_DOMAINS:
     return long_domains(m, &c, value);
   case MATERIAL_POINT_METHOD_MEASURE_BODY_MASS:
-    *value = total(&c, MASS, 0);
+    add_up(m, &c, add_momentum, &axis, sum);
+    *value = sum[0];
     return GAMUT_OK;
   case MATERIAL_POINT_METHOD_MEASURE_MOMENTUM:
-    *value = total(&c, MOMENTUM, (int)material_point_method_momentum_axis_of(arguments));
+    axis = (int)material_point_method_momentum_axis_of(arguments);
+    add_up(m, &c, add_momentum, &axis, sum);
+    *value = sum[1];
     return GAMUT_OK;
   case MATERIAL_POINT_METHOD_MEASURE_MEAN_VELOCITY:
     axis = (int)material_point_method_mean_velocity_axis_of(arguments);
-    *value = total(&c, MOMENTUM, axis) / total(&c, MASS, 0);
+    add_up(m, &c, add_momentum, &axis, sum);
+    *value = sum[1] / sum[0];
     return GAMUT_OK;
   case MATERIAL_POINT_METHOD_MEASURE_KINETIC_ENERGY:
-    *value = total(&c, KINETIC, 0);
+    add_up(m, &c, add_energy, NULL, sum);
+    *value = sum[0];
     return GAMUT_OK;
   case MATERIAL_POINT_METHOD_MEASURE_INTERNAL_ENERGY:
-    *value = total(&c, INTERNAL, 0);
+    add_up(m, &c, add_energy, NULL, sum);
+    *value = sum[1];
     return GAMUT_OK;
   }
   return GAMUT_PLUGIN; /* declared, and unknown here: the core names it */

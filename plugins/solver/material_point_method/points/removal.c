@@ -51,6 +51,20 @@ void removal_destroy(struct model *m)
   gamut_release(m->run, r->taker);
   gamut_release(m->run, r->body_mass);
   gamut_release(m->run, r->gone);
+  gamut_release(m->run, r->sum);
+}
+
+static double body_mass(const struct model *m, const struct gamut_set *set)
+{
+  const double *mass = m->host->stored(set, m->field.mass, 0);
+  double *row = m->totals.measured, sum;
+  for (size_t b = 0; b < set->blocks; b++) {
+    row[b] = 0.0;
+    for (size_t i = set->first[b]; i < set->first[b + 1]; i++)
+      row[b] += mass[i];
+  }
+  gamut_sum(m->run, row, set->blocks, 1, &sum);
+  return sum;
 }
 
 gamut_status removal_start(struct model *m)
@@ -65,11 +79,12 @@ gamut_status removal_start(struct model *m)
   r->body_mass = gamut_allocate(m->run, "removal", m->bodies * sizeof *r->body_mass);
   if (r->body_mass == NULL)
     return GAMUT_INTERNAL;
-  for (size_t b = 0; b < m->bodies; b++) {
-    const double *mass = m->host->stored(m->body[b].set, m->field.mass, 0);
-    for (size_t i = 0; i < m->body[b].set->slots; i++)
-      r->body_mass[b] += mass[i];
-  }
+  r->sum = gamut_allocate(m->run, "removal",
+                          (m->bodies + 1) * r->takers * GONE_SUMS * sizeof *r->sum);
+  if (r->sum == NULL)
+    return GAMUT_INTERNAL;
+  for (size_t b = 0; b < m->bodies; b++)
+    r->body_mass[b] = body_mass(m, m->body[b].set);
   return GAMUT_OK;
 }
 
@@ -87,31 +102,54 @@ gamut_status removal_room(struct model *m)
   return r->gone != NULL ? GAMUT_OK : GAMUT_INTERNAL;
 }
 
-/* What left one block, to the sums of takers; how many points. */
-static size_t keep_block(struct model *m, size_t body, size_t serial)
+/* What left a block is known: makes it nothing; how many points it was. */
+static size_t clear_block(struct model *m, size_t serial)
 {
-  struct removals *r = &m->removal;
+  const struct removals *r = &m->removal;
   size_t points = 0;
   for (size_t t = 0; t < r->takers; t++) {
-    struct taker *taker = r->taker[t];
     double *gone = r->gone + (serial * r->takers + t) * GONE_SUMS;
     if (gone[GONE_POINTS] == 0.0)
       continue;
     points += (size_t)gone[GONE_POINTS];
-    taker->total.points += gone[GONE_POINTS];
-    taker->total.mass += gone[GONE_MASS];
-    taker->total.kinetic += gone[GONE_KINETIC];
-    taker->total.internal += gone[GONE_INTERNAL];
-    taker->of_body[body] += gone[GONE_MASS];
-    for (unsigned k = 0; k < 3; k++) {
-      taker->total.momentum[k] += gone[GONE_MOMENTUM + k];
-      taker->spin[k] += gone[GONE_SPIN + k];
-    }
-    for (int q = 0; q < GONE_SUMS; q++)
-      r->now[q] += gone[q];
     memset(gone, 0, GONE_SUMS * sizeof *gone);
   }
   return points;
+}
+
+static void add_to_taker(const struct model *m, size_t number)
+{
+  const struct removals *r = &m->removal;
+  struct taker *taker = r->taker[number];
+  const size_t columns = r->takers * GONE_SUMS;
+  const double *gone = r->sum + m->bodies * columns + number * GONE_SUMS;
+  taker->total.points += gone[GONE_POINTS];
+  taker->total.mass += gone[GONE_MASS];
+  taker->total.kinetic += gone[GONE_KINETIC];
+  taker->total.internal += gone[GONE_INTERNAL];
+  for (unsigned k = 0; k < 3; k++) {
+    taker->total.momentum[k] += gone[GONE_MOMENTUM + k];
+    taker->spin[k] += gone[GONE_SPIN + k];
+  }
+  for (size_t b = 0; b < m->bodies; b++)
+    taker->of_body[b] += r->sum[b * columns + number * GONE_SUMS + GONE_MASS];
+}
+
+/* What left all blocks in this step, to the sums of takers. */
+static void add_up(struct model *m)
+{
+  struct removals *r = &m->removal;
+  const size_t columns = r->takers * GONE_SUMS;
+  double *all = r->sum + m->bodies * columns;
+  const double *gone = r->gone;
+  for (size_t b = 0; b < m->bodies; b++) {
+    gamut_sum(m->run, gone, m->body[b].set->blocks, columns, r->sum + b * columns);
+    gone += m->body[b].set->blocks * columns;
+  }
+  gamut_sum(m->run, r->sum, m->bodies, columns, all);
+  gamut_sum(m->run, all, r->takers, GONE_SUMS, r->now);
+  for (size_t t = 0; t < r->takers; t++)
+    add_to_taker(m, t);
 }
 
 /* Takes the massless points out of a set; blocks that lose all of theirs call for a sort. */
@@ -141,11 +179,14 @@ gamut_status removal_keep(struct model *m)
   if (r->stray.count > 0)
     return stray_fail(m);
   memset(r->now, 0, sizeof r->now);
-  for (size_t b = 0; b < m->bodies && r->takers > 0; b++) {
+  if (r->takers == 0)
+    return GAMUT_OK;
+  add_up(m);
+  for (size_t b = 0; b < m->bodies; b++) {
     struct gamut_set *set = m->body[b].set;
     size_t blocks = 0;
     for (size_t k = 0; k < set->blocks; k++) {
-      if (keep_block(m, b, serial + k) > 0)
+      if (clear_block(m, serial + k) > 0)
         block[blocks++] = k;
       if (blocks == FEW || (blocks > 0 && k + 1 == set->blocks)) {
         drop_points(m, set, block, blocks);

@@ -40,6 +40,7 @@ struct removals {
   double *body_mass;     /* at the start */
   double *gone;          /* GONE_SUMS a taker, of each block of points */
   size_t room;
+  double *sum;           /* the same of a step, a row a body and one of all */
   double now[GONE_SUMS]; /* of the step just taken */
   double second;         /* of affine velocity fields: the mean second moment of the weights, m2 */
   size_t since_sort;     /* points that left */

@@ -1,5 +1,5 @@
 /* Takes points out of the run, in a sweep. A point that somebody takes loses its mass before its
- * block is scattered, so that nothing of it reaches the grid; what it had is summed block by block,
+ * block is scattered, so that nothing of it reaches the grid; what it had is summed in its block,
  * in the order of slots. */
 #include <math.h>
 

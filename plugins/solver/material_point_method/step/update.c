@@ -25,7 +25,7 @@ double step_slow_mass(const struct model *m, double mass, double square)
 }
 
 static void add_node(const double *line, const double x[3], const double v[3],
-                     const double change[3], const double spin[3], struct node_sums *s)
+                     const double change[3], const double spin[3], struct nodes *s)
 {
   const double mass = line[LINE_MASS];
   double before = 0.0, after = 0.0, work = 0.0;
@@ -36,15 +36,15 @@ static void add_node(const double *line, const double x[3], const double v[3],
     after += v[k] * v[k];
     work += change[k] * (v[k] - 0.5 * change[k]);
     s->speed = fabs(v[k]) > s->speed ? fabs(v[k]) : s->speed;
-    s->spin_after[k] += x[a] * spin[b] - x[b] * spin[a];
+    s->sum[NODE_SPIN + k] += x[a] * spin[b] - x[b] * spin[a];
   }
-  s->kinetic_before += 0.5 * mass * before;
-  s->kinetic_after += 0.5 * mass * after;
-  s->work += mass * work;
+  s->sum[NODE_BEFORE] += 0.5 * mass * before;
+  s->sum[NODE_AFTER] += 0.5 * mass * after;
+  s->sum[NODE_WORK] += mass * work;
 }
 
 static void update_node(const struct model *m, double *line, const double x[3], double step,
-                        struct node_sums *s)
+                        struct nodes *s)
 {
   const double mass = line[LINE_MASS], square = line[LINE_SQUARE];
   const bool touched = square < 0.0;
@@ -71,7 +71,7 @@ static void update_node(const struct model *m, double *line, const double x[3], 
 
 static void update_block(struct model *m, size_t b, double step)
 {
-  struct node_sums sums = {0};
+  struct nodes sums = {0};
   const struct node_block *block = &m->grid.block[b];
   const int side = m->grid.side, nx = side, ny = m->dimension > 1 ? side : 1,
             nz = m->dimension > 2 ? side : 1;
@@ -92,17 +92,8 @@ static void update_block(struct model *m, size_t b, double step)
       }
     }
   }
-  m->node_sum[b] = sums;
-}
-
-static void add_nodes(struct node_sums *to, const struct node_sums *from)
-{
-  to->kinetic_before += from->kinetic_before;
-  to->kinetic_after += from->kinetic_after;
-  to->work += from->work;
-  for (int k = 0; k < 3; k++)
-    to->spin_after[k] += from->spin_after[k];
-  to->speed = fmax(to->speed, from->speed);
+  memcpy(m->node_sum + b * NODE_SUMS, sums.sum, sizeof sums.sum);
+  m->node_speed[b] = sums.speed;
 }
 
 gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
@@ -120,11 +111,10 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
     num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     update_block(m, b, step);
-  memset(&m->nodes, 0, sizeof m->nodes);
-  for (size_t b = 0; b < m->grid.blocks; b++) {
-    add_nodes(&m->nodes, &m->node_sum[b]);
+  gamut_sum(m->run, m->node_sum, m->grid.blocks, NODE_SUMS, m->nodes.sum);
+  m->nodes.speed = fmax(0.0, gamut_most(m->run, m->node_speed, m->grid.blocks));
+  for (size_t b = 0; b < m->grid.blocks; b++)
     *m->counts.node_lines += m->grid.block[b].line != NULL ? m->grid.block_nodes : 0;
-  }
   if (planes_after_update(m, step) != GAMUT_OK)
     return GAMUT_INTERNAL;
   const gamut_status status = m->rule == RULE_XPIC ? step_filter(m) : GAMUT_OK;
