@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "conformance/bare_run.h"
+#include "conformance/stub_host.h"
 #include "random/stream.h"
 
 /* Over independent standard normal x and y: a linear and a quadratic quantity. */

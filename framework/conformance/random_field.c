@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "conformance/bare_run.h"
+#include "conformance/stub_host.h"
 #include "random/stream.h"
 
 enum { POINTS = 64, REALISATIONS = 4000 };

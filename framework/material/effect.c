@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "field/catalogue.h"
-#include "material/image.h"
+#include "material/block_image.h"
 
 enum { SLACK = 24 };
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "expression/expression.h"
-#include "material/image.h"
+#include "material/block_image.h"
 
 static const size_t operations_of_kind[GAMUT_KINDS] = {
     [GAMUT_KIND_EOS] = 2, [GAMUT_KIND_STRENGTH] = 3, [GAMUT_KIND_ELASTICITY] = 2,

@@ -3,7 +3,7 @@
 #ifndef GAMUT_LAW_H
 #define GAMUT_LAW_H
 
-#include "material/image.h"
+#include "material/block_image.h"
 
 struct law {
   struct gamut_strength_law strength; /* what the caller sees, by the kind of the kernel */

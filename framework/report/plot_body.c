@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "report/cloud.h"
+#include "report/body_points.h"
 #include "report/plot.h"
 #include "report/readable.h"
 

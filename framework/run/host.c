@@ -26,7 +26,7 @@ static gamut_status host_fail(struct gamut_run *run, gamut_status status, const 
   const struct tree *node = node_of(run);
   va_list list;
   va_start(list, format);
-  status = host_words_fail(run->trace, status, node, format, list);
+  status = host_messages_fail(run->trace, status, node, format, list);
   va_end(list);
   return status;
 }
@@ -43,8 +43,8 @@ static gamut_status host_fail_plane(struct gamut_run *run, const struct gamut_re
   snprintf(named, sizeof named, "effect %s: %s", effect ? effect->instance.name : "unknown",
            format);
   va_start(list, format);
-  status = host_words_fail(run->trace, status, effect ? effect->instance.node : NULL,
-                           effect ? named : format, list);
+  status = host_messages_fail(run->trace, status, effect ? effect->instance.node : NULL,
+                              effect ? named : format, list);
   va_end(list);
   return status;
 }
@@ -54,7 +54,7 @@ static gamut_status host_fail_at(struct gamut_run *run, const struct gamut_value
 {
   va_list list;
   va_start(list, format);
-  gamut_status status = host_words_fail_at(run->trace, values, path, expected, format, list);
+  gamut_status status = host_messages_fail_at(run->trace, values, path, expected, format, list);
   va_end(list);
   return status;
 }
@@ -63,7 +63,7 @@ static void host_warn(struct gamut_run *run, const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  host_words_warn(run->trace, format, list);
+  host_messages_warn(run->trace, format, list);
   va_end(list);
 }
 
@@ -71,7 +71,7 @@ static void host_note(struct gamut_run *run, const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  host_words_note(run->trace, format, list);
+  host_messages_note(run->trace, format, list);
   va_end(list);
 }
 

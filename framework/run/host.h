@@ -13,13 +13,13 @@
 /* Gives values and the groups below them their host; accepts null. */
 void host_of_values(struct gamut_values *, const struct gamut_host *);
 
-/* host_words.c: GAMUT_SCENE at the node, where there is one; at a value; and what is no fault. */
-gamut_status host_words_fail(struct trace *, gamut_status, const struct tree *, const char *format,
-                             va_list);
-gamut_status host_words_fail_at(struct trace *, const struct gamut_values *, const char *path,
-                                const char *expected, const char *format, va_list);
-void host_words_warn(struct trace *, const char *format, va_list);
-void host_words_note(struct trace *, const char *format, va_list);
+/* host_messages.c: GAMUT_SCENE at the node, where there is one; at a value; what is no fault. */
+gamut_status host_messages_fail(struct trace *, gamut_status, const struct tree *,
+                                const char *format, va_list);
+gamut_status host_messages_fail_at(struct trace *, const struct gamut_values *, const char *path,
+                                   const char *expected, const char *format, va_list);
+void host_messages_warn(struct trace *, const char *format, va_list);
+void host_messages_note(struct trace *, const char *format, va_list);
 
 bool host_given(const struct gamut_values *, const char *path);
 double host_real(const struct gamut_values *, const char *path);

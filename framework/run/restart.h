@@ -18,7 +18,7 @@ char *restart_scene_text(const struct tree *);
 /* A line "id version digest level" for each open plugin. Allocated; null without memory. */
 char *restart_plugins_text(const struct gamut_run *);
 
-/* same.c: whether a run may go on as this one. Only solver.end and outputs may differ; the first
+/* compare.c: whether a run may go on as this one. Only solver.end and outputs may differ; the first
  * difference is named. */
 gamut_status restart_same_scene(const struct tree *was, const struct tree *now, const char *folder,
                                 struct trace *);

@@ -240,7 +240,7 @@ void ledger_start(struct gamut_run *);
 gamut_status ledger_check(struct gamut_run *);
 void ledger_free(struct gamut_run *);
 
-/* work.c: counts for summary.json; work_open is gamut_host.count. */
+/* counters.c: counts for summary.json; work_open is gamut_host.count. */
 uint64_t *work_open(struct gamut_run *, const char *name);
 json_t *work_json(const struct gamut_run *);
 
@@ -259,7 +259,7 @@ gamut_status advance_first_step(struct gamut_run *, double *step);
 /* One step; false in *more at the end of the run. */
 gamut_status advance_step(struct gamut_run *, bool *more);
 
-/* stop.c */
+/* failures.c */
 /* A body's velocity is arithmetic in space, which may have no value somewhere. */
 gamut_status start_check(struct gamut_run *);
 gamut_status stop_check(struct gamut_run *);

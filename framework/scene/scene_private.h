@@ -72,7 +72,7 @@ bool every_within(struct reading *, const struct tree *, const char *what, doubl
                   double most);
 double axis_length(const struct reading *); /* the solver's end; 0: it has none */
 
-/* blame.c: faults in words. `expected` may be null. */
+/* report_error.c: faults in words. `expected` may be null. */
 
 void blame_value(struct reading *, const struct tree *, const char *expected, const char *format,
                  ...) __attribute__((format(printf, 4, 5)));

@@ -18,7 +18,7 @@ static gamut_status study_fail(struct gamut_run *run, gamut_status status, const
 {
   va_list list;
   va_start(list, format);
-  status = host_words_fail(host_of(run)->trace, status, host_of(run)->node, format, list);
+  status = host_messages_fail(host_of(run)->trace, status, host_of(run)->node, format, list);
   va_end(list);
   return status;
 }
@@ -29,7 +29,7 @@ static gamut_status study_fail_at(struct gamut_run *run, const struct gamut_valu
   va_list list;
   va_start(list, format);
   gamut_status status =
-      host_words_fail_at(host_of(run)->trace, values, path, expected, format, list);
+      host_messages_fail_at(host_of(run)->trace, values, path, expected, format, list);
   va_end(list);
   return status;
 }
@@ -38,7 +38,7 @@ static void study_warn(struct gamut_run *run, const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  host_words_warn(host_of(run)->trace, format, list);
+  host_messages_warn(host_of(run)->trace, format, list);
   va_end(list);
 }
 

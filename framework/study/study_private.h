@@ -151,7 +151,7 @@ size_t levels_of_table(const struct study *);
 /* More than uncertainty.failures allows; of a table, more than it allows of all its levels. */
 bool too_many_fail(const struct study *);
 
-/* work.c */
+/* worker.c */
 void worker_clear(struct worker *);
 /* Gives it the scene of a level. */
 gamut_status worker_take(const struct study *, struct worker *, size_t level, struct trace *);

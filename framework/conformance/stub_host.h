@@ -1,6 +1,6 @@
 /* As much of a run as a plugin needs that works without bodies: estimators and random fields. */
-#ifndef GAMUT_BARE_RUN_H
-#define GAMUT_BARE_RUN_H
+#ifndef GAMUT_STUB_HOST_H
+#define GAMUT_STUB_HOST_H
 
 #include <gamut/plugin.h>
 

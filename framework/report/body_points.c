@@ -1,4 +1,4 @@
-#include "report/cloud.h"
+#include "report/body_points.h"
 
 #include <math.h>
 #include <stdint.h>

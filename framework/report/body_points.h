@@ -1,6 +1,6 @@
 /* Points of a body in the plane of a picture, each with the radius of the disc that it fills. */
-#ifndef GAMUT_CLOUD_H
-#define GAMUT_CLOUD_H
+#ifndef GAMUT_BODY_POINTS_H
+#define GAMUT_BODY_POINTS_H
 
 #include <stdbool.h>
 #include <stddef.h>

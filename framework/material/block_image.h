@@ -1,6 +1,6 @@
 /* The memory image of a block struct, and how its pointers are led to the arrays of a chunk. */
-#ifndef GAMUT_IMAGE_H
-#define GAMUT_IMAGE_H
+#ifndef GAMUT_BLOCK_IMAGE_H
+#define GAMUT_BLOCK_IMAGE_H
 
 #include <gamut/plugin.h>
 

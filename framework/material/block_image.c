@@ -1,4 +1,4 @@
-#include "material/image.h"
+#include "material/block_image.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 #include <string.h>
 
-#include "material/image.h"
+#include "material/block_image.h"
 
 double *tally_spared(const struct tally *tally, const struct gamut_chunk *chunk)
 {

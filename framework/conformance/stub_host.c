@@ -1,4 +1,4 @@
-#include "conformance/bare_run.h"
+#include "conformance/stub_host.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@ static gamut_status bare_fail(struct gamut_run *run, gamut_status status, const 
 {
   va_list list;
   va_start(list, format);
-  status = host_words_fail(bare(run)->trace, status, NULL, format, list);
+  status = host_messages_fail(bare(run)->trace, status, NULL, format, list);
   va_end(list);
   return status;
 }
@@ -24,7 +24,8 @@ static gamut_status bare_fail_at(struct gamut_run *run, const struct gamut_value
 {
   va_list list;
   va_start(list, format);
-  gamut_status status = host_words_fail_at(bare(run)->trace, values, path, expected, format, list);
+  gamut_status status =
+      host_messages_fail_at(bare(run)->trace, values, path, expected, format, list);
   va_end(list);
   return status;
 }
@@ -33,7 +34,7 @@ static void bare_note(struct gamut_run *run, const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  host_words_note(bare(run)->trace, format, list);
+  host_messages_note(bare(run)->trace, format, list);
   va_end(list);
 }
 

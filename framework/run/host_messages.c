@@ -7,8 +7,8 @@
 
 enum { WORDS = 1024 };
 
-gamut_status host_words_fail(struct trace *trace, gamut_status status, const struct tree *node,
-                             const char *format, va_list list)
+gamut_status host_messages_fail(struct trace *trace, gamut_status status, const struct tree *node,
+                                const char *format, va_list list)
 {
   char text[WORDS], path[512];
   vsnprintf(text, sizeof text, format, list);
@@ -34,9 +34,9 @@ static const struct tree *below(const struct tree *node, const char *path)
   return node;
 }
 
-gamut_status host_words_fail_at(struct trace *trace, const struct gamut_values *values,
-                                const char *path, const char *expected, const char *format,
-                                va_list list)
+gamut_status host_messages_fail_at(struct trace *trace, const struct gamut_values *values,
+                                   const char *path, const char *expected, const char *format,
+                                   va_list list)
 {
   char text[WORDS], where[512];
   const struct value *value = values_find(values, path);
@@ -47,14 +47,14 @@ gamut_status host_words_fail_at(struct trace *trace, const struct gamut_values *
   return trace_fail_at(trace, GAMUT_SCENE, node ? &node->place : NULL, where, expected, "%s", text);
 }
 
-void host_words_warn(struct trace *trace, const char *format, va_list list)
+void host_messages_warn(struct trace *trace, const char *format, va_list list)
 {
   char text[WORDS];
   vsnprintf(text, sizeof text, format, list);
   trace_warn_at(trace, NULL, NULL, NULL, "%s", text);
 }
 
-void host_words_note(struct trace *trace, const char *format, va_list list)
+void host_messages_note(struct trace *trace, const char *format, va_list list)
 {
   char text[WORDS];
   vsnprintf(text, sizeof text, format, list);
