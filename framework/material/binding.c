@@ -114,45 +114,45 @@ static bool wants_law(const struct descriptor *d, const char *name)
 }
 
 /* Scratch rows and laws of the elasticity's image. */
-static gamut_status furnish(struct bound_material *bound, struct seat *seat)
+static gamut_status allocate_scratch(struct bound_material *bound, struct thread_state *state)
 {
   const struct kernel *kernel = bound->kernel[ELASTICITY];
   size_t stride = bound->chunk + SLACK, row = 0;
   for (size_t s = 0; s < kernel->slots; s++)
     row += kernel->slot[s].kind == SLOT_SCRATCH;
-  seat->scratch =
+  state->scratch =
       arena_take(bound->arena, "scratch of kernels", (row + 2) * stride * sizeof(double));
-  seat->image = image_new(kernel, bound->arena, bound->chunk, "scratch of kernels");
-  if (!seat->scratch || !seat->image)
+  state->image = image_new(kernel, bound->arena, bound->chunk, "scratch of kernels");
+  if (!state->scratch || !state->image)
     return GAMUT_INTERNAL;
-  seat->zero = seat->scratch;
-  seat->sink = seat->scratch + stride;
+  state->zero = state->scratch;
+  state->sink = state->scratch + stride;
   row = 2;
   for (size_t s = 0; s < kernel->slots; s++) {
     if (kernel->slot[s].kind == SLOT_SCRATCH)
-      seat->image->pointer[s] = seat->scratch + stride * row++;
+      state->image->pointer[s] = state->scratch + stride * row++;
     if (kernel->slot[s].kind != SLOT_LAW)
       continue;
     bool strength = strcmp(kernel->slot[s].name, "strength") == 0;
-    struct law *law = seat->law[strength ? STRENGTH : EOS];
+    struct law *law = state->law[strength ? STRENGTH : EOS];
     if (law)
-      seat->image->pointer[s] = strength ? (void *)&law->strength : (void *)&law->eos;
+      state->image->pointer[s] = strength ? (void *)&law->strength : (void *)&law->eos;
   }
   return GAMUT_OK;
 }
 
 static gamut_status make_seats(struct bound_material *bound, struct trace *trace)
 {
-  bound->seat =
-      arena_take(bound->arena, "scratch of kernels", bound->threads * sizeof *bound->seat);
-  bool good = bound->seat != NULL;
+  bound->per_thread =
+      arena_take(bound->arena, "scratch of kernels", bound->threads * sizeof *bound->per_thread);
+  bool good = bound->per_thread != NULL;
   for (size_t t = 0; good && t < bound->threads; t++) {
     for (int role = STRENGTH; good && role < ROLES; role++)
       if (bound->kernel[role])
         good = law_new(bound->kernel[role], bound->arena, bound->chunk,
-                       &bound->seat[t].law[role]) == GAMUT_OK;
-    good = good && furnish(bound, &bound->seat[t]) == GAMUT_OK;
-    bound->seat[t].step_factor = INFINITY;
+                       &bound->per_thread[t].law[role]) == GAMUT_OK;
+    good = good && allocate_scratch(bound, &bound->per_thread[t]) == GAMUT_OK;
+    bound->per_thread[t].step_factor = INFINITY;
   }
   return good ? GAMUT_OK : trace_fail(trace, GAMUT_INTERNAL, "out of memory");
 }
@@ -206,8 +206,8 @@ gamut_status material_new(const struct material *material, struct registry *regi
   bound->plastic_strain = component_or_none(fields, "plastic_strain");
   bound->step_factor = component_or_none(fields, "step_factor");
   TRY(make_seats(bound, trace));
-  TRY(elasticity_try(bound->kernel[ELASTICITY], bound->seat[0].law[STRENGTH],
-                     bound->seat[0].law[EOS], trace));
+  TRY(elasticity_try(bound->kernel[ELASTICITY], bound->per_thread[0].law[STRENGTH],
+                     bound->per_thread[0].law[EOS], trace));
 done:
   if (status != GAMUT_OK) {
     material_free(bound);
@@ -221,16 +221,16 @@ void material_free(struct bound_material *bound)
 {
   if (!bound)
     return;
-  for (size_t t = 0; bound->seat && t < bound->threads; t++) {
-    struct seat *seat = &bound->seat[t];
+  for (size_t t = 0; bound->per_thread && t < bound->threads; t++) {
+    struct thread_state *state = &bound->per_thread[t];
     for (int role = 0; role < ROLES; role++)
-      law_free(seat->law[role], bound->arena);
-    if (seat->image)
-      arena_give(bound->arena, seat->image->status);
-    arena_give(bound->arena, seat->image);
-    arena_give(bound->arena, seat->scratch);
+      law_free(state->law[role], bound->arena);
+    if (state->image)
+      arena_give(bound->arena, state->image->status);
+    arena_give(bound->arena, state->image);
+    arena_give(bound->arena, state->scratch);
   }
-  arena_give(bound->arena, bound->seat);
+  arena_give(bound->arena, bound->per_thread);
   for (int role = 0; role < ROLES; role++) {
     links_free(&bound->links[role]);
     kernel_free(bound->kernel[role]);
@@ -252,22 +252,22 @@ static void fill_argument(double *row, size_t component, const struct gamut_chun
     memcpy(row, from, chunk->count * sizeof *row);
 }
 
-static void follow(struct bound_material *bound, struct seat *seat,
+static void follow(struct bound_material *bound, struct thread_state *state,
                    const struct gamut_chunk *chunk)
 {
-  image_follow(seat->image, bound->links[ELASTICITY].link, bound->links[ELASTICITY].count, chunk,
-               seat->zero, seat->sink);
-  memset(seat->image->status, 0, chunk->count * sizeof *seat->image->status);
+  image_follow(state->image, bound->links[ELASTICITY].link, bound->links[ELASTICITY].count, chunk,
+               state->zero, state->sink);
+  memset(state->image->status, 0, chunk->count * sizeof *state->image->status);
   for (int role = STRENGTH; role < ROLES; role++) {
-    if (!seat->law[role])
+    if (!state->law[role])
       continue;
-    image_follow(seat->law[role]->image, bound->links[role].link, bound->links[role].count, chunk,
-                 seat->zero, seat->sink);
-    law_begin(seat->law[role], chunk->count);
+    image_follow(state->law[role]->image, bound->links[role].link, bound->links[role].count, chunk,
+                 state->zero, state->sink);
+    law_begin(state->law[role], chunk->count);
   }
-  if (!seat->law[STRENGTH])
+  if (!state->law[STRENGTH])
     return;
-  const struct gamut_strength_law *strength = &seat->law[STRENGTH]->strength;
+  const struct gamut_strength_law *strength = &state->law[STRENGTH]->strength;
   fill_argument(strength->temperature, bound->temperature, chunk);
   fill_argument(strength->plastic_strain, bound->plastic_strain, chunk);
 }
@@ -281,32 +281,32 @@ static void call(const struct bound_material *bound, kernel_function function, s
 
 void material_update(struct bound_material *bound, const struct gamut_chunk *chunk)
 {
-  struct seat *seat = &bound->seat[chunk->thread];
-  follow(bound, seat, chunk);
-  call(bound, bound->kernel[ELASTICITY]->main, seat->image);
+  struct thread_state *state = &bound->per_thread[chunk->thread];
+  follow(bound, state, chunk);
+  call(bound, bound->kernel[ELASTICITY]->main, state->image);
 }
 
 void material_tally(struct bound_material *bound, const struct gamut_chunk *chunk)
 {
-  struct seat *seat = &bound->seat[chunk->thread];
-  tally_block(&seat->tally[ELASTICITY], seat->image->status, chunk);
+  struct thread_state *state = &bound->per_thread[chunk->thread];
+  tally_block(&state->tally[ELASTICITY], state->image->status, chunk);
   for (int role = STRENGTH; role < ROLES; role++)
-    if (seat->law[role])
-      tally_block(&seat->tally[role], seat->law[role]->image->status, chunk);
+    if (state->law[role])
+      tally_block(&state->tally[role], state->law[role]->image->status, chunk);
   const double *factor =
       bound->step_factor != SIZE_MAX ? chunk->end[bound->step_factor] : NULL;
-  const double *removal = tally_spared(&seat->tally[ELASTICITY], chunk);
+  const double *removal = tally_spared(&state->tally[ELASTICITY], chunk);
   for (size_t i = 0; factor && i < chunk->count; i++)
     if (chunk->set->id[chunk->slot + i] >= 0 && !(removal && removal[i] > 0.0))
-      seat->step_factor = fmin(seat->step_factor, factor[i]);
+      state->step_factor = fmin(state->step_factor, factor[i]);
 }
 
 double material_step_factor(struct bound_material *bound)
 {
   double factor = INFINITY;
   for (size_t t = 0; t < bound->threads; t++) {
-    factor = fmin(factor, bound->seat[t].step_factor);
-    bound->seat[t].step_factor = INFINITY;
+    factor = fmin(factor, bound->per_thread[t].step_factor);
+    bound->per_thread[t].step_factor = INFINITY;
   }
   return factor;
 }
@@ -316,8 +316,8 @@ uint64_t material_evaluations(const struct bound_material *bound, enum gamut_kin
   const int role = kind == GAMUT_KIND_STRENGTH ? STRENGTH : EOS;
   uint64_t evaluated = 0;
   for (size_t t = 0; t < bound->threads; t++)
-    if (bound->seat[t].law[role])
-      evaluated += bound->seat[t].law[role]->evaluated;
+    if (bound->per_thread[t].law[role])
+      evaluated += bound->per_thread[t].law[role]->evaluated;
   return evaluated;
 }
 
@@ -335,12 +335,12 @@ static void carry_state(const struct bound_material *bound, const struct gamut_c
 
 void material_start(struct bound_material *bound, const struct gamut_chunk *chunk)
 {
-  struct seat *seat = &bound->seat[chunk->thread];
+  struct thread_state *state = &bound->per_thread[chunk->thread];
   kernel_function start = kernel_operation(bound->kernel[ELASTICITY], 1);
   carry_state(bound, chunk);
-  follow(bound, seat, chunk);
+  follow(bound, state, chunk);
   if (start)
-    call(bound, start, seat->image);
+    call(bound, start, state->image);
 }
 
 const struct kernel *material_kernel(const struct bound_material *bound, enum gamut_kind kind)
@@ -354,34 +354,34 @@ _Static_assert(MATERIAL_COUNTS == ROLES * FLAG_COUNTS, "one tally a role");
 void material_counts(const struct bound_material *bound, int64_t count[MATERIAL_COUNTS])
 {
   for (int role = 0; role < ROLES; role++)
-    tally_counts(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
+    tally_counts(&bound->per_thread[0].tally[role], bound->threads, sizeof(struct thread_state),
                  count + role * FLAG_COUNTS);
 }
 
 void material_go_on(struct bound_material *bound, const int64_t count[MATERIAL_COUNTS])
 {
   for (int role = 0; role < ROLES; role++)
-    tally_go_on(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
+    tally_go_on(&bound->per_thread[0].tally[role], bound->threads, sizeof(struct thread_state),
                 count + role * FLAG_COUNTS);
 }
 
 void material_step_factor_keep(struct bound_material *bound, double factor)
 {
-  bound->seat[0].step_factor = factor;
+  bound->per_thread[0].step_factor = factor;
 }
 
 void material_spare(struct bound_material *bound, const struct spare *spare)
 {
   for (size_t t = 0; t < bound->threads; t++)
     for (int role = 0; role < ROLES; role++)
-      bound->seat[t].tally[role].spare = spare;
+      bound->per_thread[t].tally[role].spare = spare;
 }
 
 bool material_flag(const struct bound_material *bound, size_t index, struct flag_report *report)
 {
   for (int role = 0; role < ROLES; role++)
     if (bound->kernel[role] &&
-        tally_report(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
+        tally_report(&bound->per_thread[0].tally[role], bound->threads, sizeof(struct thread_state),
                      bound->kernel[role]->descriptor, &index, report))
       return true;
   return false;
@@ -392,8 +392,8 @@ bool material_stopped(struct bound_material *bound, struct flag_stop *stop)
 {
   for (int role = ROLES - 1; role >= 0; role--)
     if (bound->kernel[role] &&
-        tally_stopped(&bound->seat[0].tally[role], bound->threads, sizeof(struct seat),
-                      bound->kernel[role]->descriptor, stop))
+        tally_stopped(&bound->per_thread[0].tally[role], bound->threads,
+                      sizeof(struct thread_state), bound->kernel[role]->descriptor, stop))
       return true;
   return false;
 }

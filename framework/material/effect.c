@@ -13,7 +13,7 @@ struct effect_task {
   kernel_function call;
 };
 
-struct effect_seat {
+struct effect_thread {
   struct image **image; /* one a material */
   double *zero, *sink;
   struct tally tally;
@@ -23,7 +23,7 @@ struct bound_effect {
   const struct kernel *const *kernel;
   size_t materials, threads, tasks;
   struct effect_task *task;
-  struct effect_seat *seat;
+  struct effect_thread *per_thread;
   struct arena *arena;
 };
 
@@ -119,28 +119,28 @@ static gamut_status make_seats(struct bound_effect *bound)
 {
   static const char label[] = "scratch of effects";
   size_t stride = GAMUT_CHUNK_MAX + SLACK;
-  bound->seat = arena_take(bound->arena, label, bound->threads * sizeof *bound->seat);
-  if (!bound->seat)
+  bound->per_thread = arena_take(bound->arena, label, bound->threads * sizeof *bound->per_thread);
+  if (!bound->per_thread)
     return GAMUT_INTERNAL;
   for (size_t t = 0; t < bound->threads; t++) {
-    struct effect_seat *seat = &bound->seat[t];
+    struct effect_thread *state = &bound->per_thread[t];
     const struct kernel *first = bound->kernel[0];
     size_t rows = 2;
     for (size_t s = 0; s < first->slots; s++)
       rows += first->slot[s].kind == SLOT_SCRATCH;
-    seat->zero = arena_take(bound->arena, label, rows * stride * sizeof(double));
-    seat->image = arena_take(bound->arena, label, bound->materials * sizeof(*seat->image));
-    if (!seat->zero || !seat->image)
+    state->zero = arena_take(bound->arena, label, rows * stride * sizeof(double));
+    state->image = arena_take(bound->arena, label, bound->materials * sizeof(*state->image));
+    if (!state->zero || !state->image)
       return GAMUT_INTERNAL;
-    seat->sink = seat->zero + stride;
+    state->sink = state->zero + stride;
     for (size_t m = 0; m < bound->materials; m++) {
-      seat->image[m] = image_new(bound->kernel[m], bound->arena, GAMUT_CHUNK_MAX, label);
-      if (!seat->image[m])
+      state->image[m] = image_new(bound->kernel[m], bound->arena, GAMUT_CHUNK_MAX, label);
+      if (!state->image[m])
         return GAMUT_INTERNAL;
       size_t row = 2;
       for (size_t s = 0; s < first->slots; s++)
         if (first->slot[s].kind == SLOT_SCRATCH)
-          seat->image[m]->pointer[s] = seat->zero + stride * row++;
+          state->image[m]->pointer[s] = state->zero + stride * row++;
     }
   }
   return GAMUT_OK;
@@ -181,17 +181,17 @@ void effect_free(struct bound_effect *bound)
     free(bound->task[t].use);
   }
   free(bound->task);
-  for (size_t t = 0; bound->seat && t < bound->threads; t++) {
-    struct effect_seat *seat = &bound->seat[t];
-    for (size_t m = 0; seat->image && m < bound->materials; m++) {
-      if (seat->image[m])
-        arena_give(bound->arena, seat->image[m]->status);
-      arena_give(bound->arena, seat->image[m]);
+  for (size_t t = 0; bound->per_thread && t < bound->threads; t++) {
+    struct effect_thread *state = &bound->per_thread[t];
+    for (size_t m = 0; state->image && m < bound->materials; m++) {
+      if (state->image[m])
+        arena_give(bound->arena, state->image[m]->status);
+      arena_give(bound->arena, state->image[m]);
     }
-    arena_give(bound->arena, seat->image);
-    arena_give(bound->arena, seat->zero);
+    arena_give(bound->arena, state->image);
+    arena_give(bound->arena, state->zero);
   }
-  arena_give(bound->arena, bound->seat);
+  arena_give(bound->arena, bound->per_thread);
   free(bound);
 }
 
@@ -226,39 +226,39 @@ void effect_resolve(struct bound_effect *bound, size_t task, const struct task *
 void effect_call(struct bound_effect *bound, size_t task, size_t material,
                  const struct gamut_chunk *chunk)
 {
-  struct effect_seat *seat = &bound->seat[chunk->thread];
-  struct image *image = seat->image[material];
+  struct effect_thread *state = &bound->per_thread[chunk->thread];
+  struct image *image = state->image[material];
   const struct links *links = &bound->task[task].links[material];
-  image_follow(image, links->link, links->count, chunk, seat->zero, seat->sink);
+  image_follow(image, links->link, links->count, chunk, state->zero, state->sink);
   memset(image->status, 0, chunk->count * sizeof *image->status);
   bound->task[task].call(image);
-  tally_block(&seat->tally, image->status, chunk);
+  tally_block(&state->tally, image->status, chunk);
 }
 
 void effect_counts(const struct bound_effect *bound, int64_t count[FLAG_COUNTS])
 {
-  tally_counts(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat), count);
+  tally_counts(&bound->per_thread[0].tally, bound->threads, sizeof(struct effect_thread), count);
 }
 
 void effect_go_on(struct bound_effect *bound, const int64_t count[FLAG_COUNTS])
 {
-  tally_go_on(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat), count);
+  tally_go_on(&bound->per_thread[0].tally, bound->threads, sizeof(struct effect_thread), count);
 }
 
 void effect_spare(struct bound_effect *bound, const struct spare *spare)
 {
   for (size_t t = 0; t < bound->threads; t++)
-    bound->seat[t].tally.spare = spare;
+    bound->per_thread[t].tally.spare = spare;
 }
 
 bool effect_flag(const struct bound_effect *bound, size_t index, struct flag_report *report)
 {
-  return tally_report(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat),
+  return tally_report(&bound->per_thread[0].tally, bound->threads, sizeof(struct effect_thread),
                       bound->kernel[0]->descriptor, &index, report);
 }
 
 bool effect_stopped(struct bound_effect *bound, struct flag_stop *stop)
 {
-  return tally_stopped(&bound->seat[0].tally, bound->threads, sizeof(struct effect_seat),
+  return tally_stopped(&bound->per_thread[0].tally, bound->threads, sizeof(struct effect_thread),
                        bound->kernel[0]->descriptor, stop);
 }

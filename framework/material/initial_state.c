@@ -23,7 +23,7 @@ static bool follow_parameters(const struct law *law, const struct point_set *set
 static gamut_status energy_of_pressure(struct bound_material *bound, const struct gamut_body *body,
                                        double *energy, struct trace *trace)
 {
-  struct law *law = bound->seat[0].law[EOS];
+  struct law *law = bound->per_thread[0].law[EOS];
   double e = 0.0;
   for (int i = 0; law && i < 60; i++) {
     law_begin(law, GAMUT_LANES);
@@ -53,7 +53,7 @@ gamut_status material_initial(struct bound_material *bound, struct point_set *se
   gamut_status status = GAMUT_OK;
   double energy = body->has_energy ? body->energy : 0.0;
   bool sought = body->has_pressure && body->pressure != 0.0;
-  bool differs = sought && follow_parameters(bound->seat[0].law[EOS], set, 0);
+  bool differs = sought && follow_parameters(bound->per_thread[0].law[EOS], set, 0);
   if (sought)
     TRY(energy_of_pressure(bound, body, &energy, trace));
   const struct { const char *name; double value; } initial[] = {
@@ -64,7 +64,7 @@ gamut_status material_initial(struct bound_material *bound, struct point_set *se
     for (size_t i = 0; array && i < set->open.slots; i++)
       array[i] = initial[f].value;
     for (size_t i = 0; differs && f == 1 && array && i < set->open.slots; i++) {
-      follow_parameters(bound->seat[0].law[EOS], set, i);
+      follow_parameters(bound->per_thread[0].law[EOS], set, i);
       TRY(energy_of_pressure(bound, body, &array[i], trace));
     }
   }

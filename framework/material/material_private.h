@@ -7,7 +7,7 @@
 enum { ELASTICITY, STRENGTH, EOS, ROLES };
 
 /* What one thread needs to update a block. */
-struct seat {
+struct thread_state {
   struct image *image;
   struct law *law[ROLES]; /* of strength and eos */
   double *scratch;
@@ -22,7 +22,7 @@ struct bound_material {
   struct links links[ROLES];
   struct gamut_use *use;
   size_t uses;
-  struct seat *seat;
+  struct thread_state *per_thread;
   size_t threads, chunk;
   struct arena *arena;
   size_t temperature, plastic_strain; /* components that fill a law's arguments; SIZE_MAX: none */
