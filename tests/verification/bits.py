@@ -60,6 +60,8 @@ for scene, changes in SCENES:
         differ = sorted(k for k in set(shown) | set(again) if shown.get(k) != again.get(k))
         if history(other) != recorded:
             differ.append("history.csv")
+        if other.summary["ledger"] != first.summary["ledger"]:
+            differ.append("the ledger")
         scenes.report(not differ, f"{name}: same bits with {threads} threads, blocks of "
                                   f"{block or 'the usual size'}", differ[:8])
         scenes.drop(other)

@@ -339,7 +339,7 @@ struct gamut_host {
    * and rounded once to the nearest double, so that no bit of total[0] to total[columns - 1]
    * depends on the order of the rows, on how points are numbered or who did the work. No rows sum
    * to 0; an infinity or no number in a column makes its sum no number; a sum too large for a
-   * double is an infinity. About 25 instructions a value; nothing is allocated. One thread calls it
+   * double is an infinity. About 50 instructions a value; nothing is allocated. One thread calls it
    * at a time, in a task GAMUT_ONCE or outside a step, never in a chunk's task. */
   void (*sum)(struct gamut_run *, const double *value, size_t rows, size_t columns, double *total);
   /* The largest of `count` values, under the same rules: minus infinity of none, no number if there
