@@ -17,7 +17,7 @@ enum geometry { GEOMETRY_1D, GEOMETRY_PLANE_STRAIN, GEOMETRY_AXISYMMETRIC, GEOME
 
 /* When the velocity gradient is taken: from the updated velocity; from that of the momentum which
  * the points give back before they move, or after. */
-enum order { ORDER_USL, ORDER_MUSL, ORDER_USF };
+enum stress_update { UPDATE_USL, UPDATE_MUSL, UPDATE_USF };
 
 /* What the points' new velocity is made of. */
 enum rule { RULE_FLIP, RULE_PIC, RULE_APIC, RULE_XPIC };
@@ -89,7 +89,7 @@ struct model {
   enum geometry geometry;
   unsigned dimension;
   enum shape shape;
-  enum order order;
+  enum stress_update stress_update;
   enum rule rule;
   bool limited;    /* one pass with linear functions: forces on nearly empty nodes are kept down */
   int filter;      /* m of XPIC(m) */

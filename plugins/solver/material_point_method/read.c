@@ -73,16 +73,16 @@ static gamut_status read_stress_update(struct model *m, const struct gamut_value
 {
   switch (material_point_method_stress_update_of(values)) {
   case MATERIAL_POINT_METHOD_STRESS_UPDATE_AUTO:
-    m->order = m->shape == SHAPE_LINEAR ? ORDER_MUSL : ORDER_USL;
+    m->stress_update = m->shape == SHAPE_LINEAR ? UPDATE_MUSL : UPDATE_USL;
     return GAMUT_OK;
   case MATERIAL_POINT_METHOD_STRESS_UPDATE_MUSL:
-    m->order = ORDER_MUSL;
+    m->stress_update = UPDATE_MUSL;
     return GAMUT_OK;
   case MATERIAL_POINT_METHOD_STRESS_UPDATE_USL:
-    m->order = ORDER_USL;
+    m->stress_update = UPDATE_USL;
     return GAMUT_OK;
   case MATERIAL_POINT_METHOD_STRESS_UPDATE_USF:
-    m->order = ORDER_USF;
+    m->stress_update = UPDATE_USF;
     return GAMUT_OK;
   }
   return unknown(m, "stress_update");
@@ -93,7 +93,7 @@ static gamut_status read_scheme(struct model *m, const struct gamut_values *valu
   gamut_status status = read_shape(m, values);
   if (status == GAMUT_OK)
     status = read_stress_update(m, values);
-  m->limited = m->shape == SHAPE_LINEAR && m->order == ORDER_USL;
+  m->limited = m->shape == SHAPE_LINEAR && m->stress_update == UPDATE_USL;
   return status == GAMUT_OK ? read_domains(m, values) : status;
 }
 
@@ -183,7 +183,7 @@ gamut_status model_read(struct model *m, const struct gamut_values *values)
  * does not fall with the cell where material flows. */
 void model_warn(const struct model *m)
 {
-  if (m->shape != SHAPE_LINEAR || m->order != ORDER_MUSL)
+  if (m->shape != SHAPE_LINEAR || m->stress_update != UPDATE_MUSL)
     return;
   for (size_t i = 0; i < m->bodies; i++) {
     const char *strength = m->host->body_strength(m->run, m->body[i].scene);

@@ -1,6 +1,6 @@
-/* Measures of bodies. A point stands for the matter around it: for half its spacing at the start,
+/* Measures of bodies. A point stands for the material around it: for half its spacing at the start,
  * made longer or shorter as the body is along that axis near the point, which is not known, so as
- * the cube (in two dimensions the square) root of its volume ratio tells. */
+ * the cube (in two dimensions the square) root of its volume ratio says. */
 #include <math.h>
 #include <string.h>
 

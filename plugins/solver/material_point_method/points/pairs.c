@@ -1,5 +1,5 @@
 /* Bodies that share nodes. All points have one velocity field: where points of two bodies reach the
- * same node, the bodies move as one there. A scene is told so before it runs. */
+ * same node, the bodies move as one there. That is reported before the run. */
 #include <math.h>
 #include <stdio.h>
 

@@ -131,7 +131,7 @@ static void put(double *array, size_t i, double value)
     array[i] = value;
 }
 
-/* A slot without matter: whatever made the point leave must not reach the grid as nothing times
+/* A slot without material: whatever made the point leave must not reach the grid as nothing times
  * something that is no number. */
 static void make_nothing(const struct model *m, const struct locate *l, const struct state *s,
                          size_t i)
@@ -234,7 +234,7 @@ static bool any_goes(const struct model *m, const struct gamut_chunk *chunk, con
     return true;
   if (!lost && m->removal.outside == NULL)
     return false;
-  if (m->order == ORDER_USF) /* some went already, in the sweep that moved them */
+  if (m->stress_update == UPDATE_USF) /* some went already, in the sweep that moved them */
     return true;
   for (unsigned k = 0; k < m->dimension && m->removal.outside != NULL; k++)
     if (any_beyond(s->x[k], m->lower[k], m->upper[k], chunk->count))

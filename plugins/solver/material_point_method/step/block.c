@@ -47,7 +47,7 @@ gamut_status leave_momentum(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
   struct work *w = m->work[chunk->thread];
-  if (m->order == ORDER_USF)
+  if (m->stress_update == UPDATE_USF)
     leave_speed(m, w, chunk->serial);
   return leave_box(m, w, chunk->serial);
 }
@@ -64,7 +64,7 @@ gamut_status leave_sums(struct model *m, struct work *w, size_t serial)
   memset(w->point_sum, 0, POINT_SUMS * GAMUT_LANES * sizeof *w->point_sum);
   m->block_most[serial].omega_squared = w->omega_squared;
   w->omega_squared = 0.0;
-  if (m->order != ORDER_USF)
+  if (m->stress_update != UPDATE_USF)
     leave_speed(m, w, serial);
   return status;
 }

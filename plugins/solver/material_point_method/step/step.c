@@ -47,7 +47,7 @@ static gamut_status register_first_pass(struct model *m)
   use_new_velocity(m, &u);
   if (m->shape == SHAPE_GIMP)
     use(&u, "domain_length", GAMUT_READ_BEGIN);
-  if (m->order == ORDER_USF)
+  if (m->stress_update == UPDATE_USF)
     use(&u, "position", GAMUT_WRITE);
   gamut_status status =
       add(m, "load velocity change", "momentum", GAMUT_OPEN_BLOCK, load_block, NULL, 0);
@@ -63,13 +63,13 @@ static gamut_status register_first_pass(struct model *m)
 static gamut_status register_gather(struct model *m)
 {
   struct uses u = {0};
-  if (m->order == ORDER_USF) {
+  if (m->stress_update == UPDATE_USF) {
     use(&u, "position", GAMUT_READ);
   } else {
     use(&u, "position", GAMUT_READ_BEGIN);
     use(&u, "position", GAMUT_WRITE);
   }
-  if (m->order == ORDER_USL)
+  if (m->stress_update == UPDATE_USL)
     use_new_velocity(m, &u);
   else
     use(&u, "velocity", GAMUT_READ);
@@ -113,7 +113,7 @@ gamut_status step_register(struct model *m)
   static const struct gamut_use bound[] = {
       {"sound_speed", GAMUT_READ}, {"velocity", GAMUT_READ}, {"omega_squared", GAMUT_ADD}};
   gamut_status status = add(m, "update grid", "grid", GAMUT_ONCE, step_update_grid, NULL, 0);
-  if (status == GAMUT_OK && m->order != ORDER_USL)
+  if (status == GAMUT_OK && m->stress_update != UPDATE_USL)
     status = register_first_pass(m);
   if (status == GAMUT_OK)
     status = register_gather(m);

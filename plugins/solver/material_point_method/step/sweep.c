@@ -24,15 +24,15 @@ static void components(const struct gamut_chunk *chunk, struct gamut_field f, un
 static void advance_velocity(const struct model *m, const struct work *w, unsigned k, size_t count,
                              const double *restrict from, double *restrict to)
 {
-  const double *restrict gift = w->value[3 + k];
+  const double *restrict velocity_from_grid = w->value[3 + k];
   const double keep = 1.0 - m->pic;
   if (keep == 0.0) {
-    memcpy(to, gift, count * sizeof *to);
+    memcpy(to, velocity_from_grid, count * sizeof *to);
     return;
   }
 #pragma omp simd
   for (size_t i = 0; i < count; i++)
-    to[i] = keep * from[i] + gift[i];
+    to[i] = keep * from[i] + velocity_from_grid[i];
 }
 
 /* The points' new velocity, and its slope where they carry one, from what was gathered. */
@@ -79,7 +79,7 @@ gamut_status renew_momentum(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
   struct work *w = m->work[chunk->thread];
-  const bool moves = m->order == ORDER_USF;
+  const bool moves = m->stress_update == UPDATE_USF;
   struct point_view view = {.count = chunk->count};
   view.real = real_points(chunk->set, chunk->slot, chunk->count);
   components(chunk, m->field.position, 3, false, view.position);
@@ -155,11 +155,11 @@ gamut_status gather_points(void *self, const struct gamut_chunk *chunk)
   struct model *m = self;
   struct work *w = m->work[chunk->thread];
   const size_t count = chunk->count;
-  const bool moved = m->order == ORDER_USF;
+  const bool moved = m->stress_update == UPDATE_USF;
   const double *x[3], *v[3];
   double *gradient[9];
   components(chunk, m->field.position, 3, moved, x);
-  components(chunk, m->field.velocity, 3, m->order != ORDER_USL, v);
+  components(chunk, m->field.velocity, 3, m->stress_update != UPDATE_USL, v);
   for (unsigned k = 0; k < 9; k++)
     gradient[k] = gamut_end(chunk, m->field.velocity_gradient, k);
   struct locate l = locate_in(m, chunk->serial, x, count);
@@ -168,12 +168,12 @@ gamut_status gather_points(void *self, const struct gamut_chunk *chunk)
     return find_stray(m, chunk->set, chunk->slot, &l, x, v);
   m->transfer.gather_gradient(w, count, m->grid.inverse_cell, gradient);
   finish_gradient(m, w, x[0], count, gradient);
-  if (m->order == ORDER_USL)
+  if (m->stress_update == UPDATE_USL)
     renew_velocity(m, chunk);
   if (!moved) {
     /* in the second pass of MUSL the velocity that moves points stands in the place of its change
      */
-    const int at = m->order == ORDER_MUSL ? 3 : 0;
+    const int at = m->stress_update == UPDATE_MUSL ? 3 : 0;
     const double *const carry[3] = {w->value[at], w->value[at + 1], w->value[at + 2]};
     move(m, chunk, carry);
   }
