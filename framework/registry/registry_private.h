@@ -50,6 +50,9 @@ const char *path_unsafe(const char *path, char *part, size_t size);
  * none was installed with it. Otherwise `why` is a sentence. */
 bool digest_holds(const char *file, const void *bytes, size_t size, char *why, size_t why_size);
 
+/* The folder of the running program, and who owns the program; false where nobody can say. */
+bool program_place(char *folder, size_t size, uid_t *owner);
+
 /* Fills registry->root from the options and the environment. */
 gamut_status search_roots(struct registry *, const struct registry_options *, struct trace *);
 /* Reads the plugins of one root. */

@@ -50,26 +50,6 @@ bool is_file(const char *path)
   return stat(path, &info) == 0 && S_ISREG(info.st_mode);
 }
 
-/* Folder and owner of the running program; false where the system does not say. */
-static bool program_place(char *folder, size_t size, uid_t *owner)
-{
-  struct stat info;
-  char path[PATH_MAX];
-  ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
-  if (length <= 0)
-    return false;
-  path[length] = 0;
-  snprintf(folder, size, "%s", path);
-  if (stat(folder, &info) != 0)
-    return false;
-  *owner = info.st_uid;
-  char *slash = strrchr(folder, '/');
-  if (!slash)
-    return false;
-  *slash = 0;
-  return true;
-}
-
 /* Why a folder is not safe, or null. Whoever owns the program can do anything to its user anyway,
  * so that owner is trusted as the user and root are. */
 static const char *unsafe(const char *folder, bool in_place)
@@ -115,7 +95,7 @@ const char *path_unsafe(const char *path, char *part, size_t size)
   snprintf(part, size, "%s", path);
   if (!realpath(path, real))
     return strerror(errno);
-  for (char *at = real; !why && at; ) {
+  for (char *at = real; !why && at;) {
     char *end = strchr(at + 1, '/');
     snprintf(part, size, "%.*s", end ? (int)(end - real) : (int)strlen(real), real);
     why = unsafe_part(part, owner);
