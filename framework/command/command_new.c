@@ -59,8 +59,10 @@ static gamut_status write_file(struct command *command, const char *from, const 
   FILE *file = fopen(path, "wx");
   while (file && fgets(line, sizeof line, skeleton))
     fill_in(line, names, file);
-  if (!file || ferror(skeleton) || fclose(file) != 0)
-    status = trace_fail(command->trace, GAMUT_OUTPUT, "cannot write %s: %s", path, strerror(errno));
+  const bool read = !ferror(skeleton), closed = file && fclose(file) == 0;
+  if (!read || !closed)
+    status = trace_fail(command->trace, GAMUT_OUTPUT, "cannot %s %s: %s",
+                        read ? "write" : "read the skeleton of", path, strerror(errno));
   fclose(skeleton);
   return status;
 }

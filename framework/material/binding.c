@@ -141,7 +141,7 @@ static gamut_status allocate_scratch(struct bound_material *bound, struct thread
   return GAMUT_OK;
 }
 
-static gamut_status make_seats(struct bound_material *bound, struct trace *trace)
+static gamut_status make_thread_states(struct bound_material *bound, struct trace *trace)
 {
   bound->per_thread =
       arena_take(bound->arena, "scratch of kernels", bound->threads * sizeof *bound->per_thread);
@@ -205,7 +205,7 @@ gamut_status material_new(const struct material *material, struct registry *regi
   bound->temperature = component_or_none(fields, "temperature");
   bound->plastic_strain = component_or_none(fields, "plastic_strain");
   bound->step_factor = component_or_none(fields, "step_factor");
-  TRY(make_seats(bound, trace));
+  TRY(make_thread_states(bound, trace));
   TRY(elasticity_try(bound->kernel[ELASTICITY], bound->per_thread[0].law[STRENGTH],
                      bound->per_thread[0].law[EOS], trace));
 done:

@@ -204,8 +204,8 @@ gamut_status formula_declare(struct gamut_run *, const char *text);
 void given_mark(struct gamut_run *);
 void given_fill(struct gamut_run *);
 
-/* wants.c: names to the scheduler the fields that a quantity's argument `field` needs. */
-/* Leaves in `derived` the formula of the measure of points that the argument `field` names. */
+/* wants.c: names to the scheduler the fields that a quantity's argument `field` needs. Leaves in
+ * `derived` the formula of the measure of points that it names. */
 gamut_status wants_of_arguments(struct gamut_run *, const struct quantity *, const char *why,
                                 struct formula *derived);
 /* Works out that measure for all points of the body that is being measured, where it is `name`. */
