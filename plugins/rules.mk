@@ -6,6 +6,7 @@ level_flags_ =
 level_flags_.v3 = -march=x86-64-v3
 level_flags_.v4 = -march=x86-64-v4 -mprefer-vector-width=512
 suffixes = $(LEVELS:%=.%)
+all_levels = v3 v4
 
 # Functions of a plugin KIND/NAME: its files without ending, its variables, its objects at a level.
 stem = plugins/$(1)/$(notdir $(1))
@@ -75,7 +76,11 @@ $(foreach plugin,$(gamut_plugins),$(eval $(call plugin_rules,$(plugin))))
 -include $(all_objects:.o=.d)
 
 # --- What the Makefile calls ---------------------------------------------------------------------
+# What another configuration left would be picked before NAME.so, and refused.
+stale_objects = $(wildcard $(foreach plugin,$(gamut_plugins),\
+  $(foreach level,$(filter-out $(LEVELS),$(all_levels)),$(call stem,$(plugin)).$(level).so)))
 build-plugins: $(shared_objects)
+	$(if $(stale_objects),@rm -f $(stale_objects))
 
 # The digest is that of the installed file, which may be stripped; registry/digest.c checks it.
 install-plugins: $(shared_objects)
