@@ -1,6 +1,6 @@
 #include "voce.gamut.h"
 
-/* Where Q2 is 0 the second term is left out: the same numbers in half the time. */
+/* Where Q2 is 0 the second term is left out, with its exponential: the same numbers. */
 GAMUT_INLINE void law(const struct voce *b, size_t i, bool two_terms)
 {
   double strain = b->plastic_strain[i], rest1 = gamut_expm1(-b->b1[i] * strain);
@@ -58,19 +58,39 @@ static void zero_derivatives(const struct voce *b)
   FILL(flow_stress_by_h_h, 0.0);
 }
 
+/* 1 - exp(-b strain) and strain exp(-b strain) of both terms, a number a point: exponentials are
+ * taken once, whatever the core wants. */
+struct terms {
+  double filled1[GAMUT_CHUNK_MAX], left1[GAMUT_CHUNK_MAX];
+  double filled2[GAMUT_CHUNK_MAX], left2[GAMUT_CHUNK_MAX];
+};
+
+static void find_terms(const struct voce *b, struct terms *t)
+{
+  GAMUT_EACH (i, b) {
+    double strain = b->plastic_strain[i], x1 = -b->b1[i] * strain, x2 = -b->b2[i] * strain;
+    t->filled1[i] = -gamut_expm1(x1);
+    t->left1[i] = strain * gamut_exp(x1);
+    t->filled2[i] = -gamut_expm1(x2);
+    t->left2[i] = strain * gamut_exp(x2);
+  }
+}
+
 static void derivatives(const struct voce *b)
 {
   const double *strain = b->plastic_strain;
+  struct terms terms, *t = &terms;
+  find_terms(b, t);
   FILL(flow_stress_by_y0, 1.0);
-  FILL(flow_stress_by_Q1, -gamut_expm1(-b->b1[i] * strain[i]));
-  FILL(flow_stress_by_b1, b->Q1[i] * strain[i] * gamut_exp(-b->b1[i] * strain[i]));
-  FILL(flow_stress_by_Q2, -gamut_expm1(-b->b2[i] * strain[i]));
-  FILL(flow_stress_by_b2, b->Q2[i] * strain[i] * gamut_exp(-b->b2[i] * strain[i]));
+  FILL(flow_stress_by_Q1, t->filled1[i]);
+  FILL(flow_stress_by_b1, b->Q1[i] * t->left1[i]);
+  FILL(flow_stress_by_Q2, t->filled2[i]);
+  FILL(flow_stress_by_b2, b->Q2[i] * t->left2[i]);
   FILL(flow_stress_by_h, strain[i]);
-  FILL(flow_stress_by_Q1_b1, strain[i] * gamut_exp(-b->b1[i] * strain[i]));
-  FILL(flow_stress_by_b1_b1, -b->Q1[i] * strain[i] * strain[i] * gamut_exp(-b->b1[i] * strain[i]));
-  FILL(flow_stress_by_Q2_b2, strain[i] * gamut_exp(-b->b2[i] * strain[i]));
-  FILL(flow_stress_by_b2_b2, -b->Q2[i] * strain[i] * strain[i] * gamut_exp(-b->b2[i] * strain[i]));
+  FILL(flow_stress_by_Q1_b1, t->left1[i]);
+  FILL(flow_stress_by_b1_b1, -b->Q1[i] * strain[i] * t->left1[i]);
+  FILL(flow_stress_by_Q2_b2, t->left2[i]);
+  FILL(flow_stress_by_b2_b2, -b->Q2[i] * strain[i] * t->left2[i]);
   zero_derivatives(b);
 }
 
