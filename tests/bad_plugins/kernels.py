@@ -1,7 +1,9 @@
 """Small plugins that are wrong on purpose, written from a few lines of C and built with $CC."""
 import os
 import shutil
+import signal
 import subprocess
+import time
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
 GAMUT = os.environ.get("GAMUT", os.path.join(ROOT, "build/gamut"))
@@ -115,6 +117,22 @@ def gamut(arguments, folder, timeout=300):
                           stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, errors="replace")
     return done.returncode, done.stdout
+
+
+def terminated(root, scene, output):
+    """A run that gets SIGTERM after 0.7 s: its exit code, what it said, and how long it took on."""
+    process = subprocess.Popen([GAMUT, "--no-user-plugins", "--plugin-path", root, "run", scene,
+                                "-o", output], cwd=root, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    time.sleep(0.7)
+    begun = time.monotonic()
+    process.send_signal(signal.SIGTERM)
+    try:
+        said, _ = process.communicate(timeout=20)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        said, _ = process.communicate()
+    return process.returncode, said, time.monotonic() - begun
 
 
 def sanitized():

@@ -2,10 +2,8 @@
 code is 4, whatever command it is, and SIGTERM ends a run within 5 s. Prints TAP."""
 import os
 import signal
-import subprocess
 import sys
 import tempfile
-import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import kernels  # noqa: E402
@@ -86,19 +84,8 @@ def other_places(root):
 
 
 def terminate(root, scene, what, plugin):
-    process = subprocess.Popen([kernels.GAMUT, "--no-user-plugins", "--plugin-path", root, "run",
-                                scene, "-o", what + "-r"], cwd=root, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    time.sleep(0.7)
-    begun = time.monotonic()
-    process.send_signal(signal.SIGTERM)
-    try:
-        said, _ = process.communicate(timeout=20)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        said, _ = process.communicate()
-    took = time.monotonic() - begun
-    named(f"SIGTERM, {what}", plugin, process.returncode, said)
+    code, said, took = kernels.terminated(root, scene, what + "-r")
+    named(f"SIGTERM, {what}", plugin, code, said)
     report(took < 5, f"SIGTERM, {what}: ended after {took:.2f} s (at most 5)")
 
 

@@ -1,11 +1,8 @@
 """Elasticities and kernels of effects that are wrong, and laws that a solver calls itself: `check`
 and `run` refuse each before the first step, and run the same plugin without the fault. Prints TAP."""
 import os
-import signal
-import subprocess
 import sys
 import tempfile
-import time
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import kernels  # noqa: E402
@@ -150,20 +147,9 @@ def hanging(root):
     text = elasticity(root, "e_hangs", E + "    for (volatile int on = 1; on;) {}\n")
     with open(os.path.join(root, "e_hangs.yaml"), "w", encoding="utf-8") as file:
         file.write(text)
-    process = subprocess.Popen([kernels.GAMUT, "--no-user-plugins", "--plugin-path", root, "run",
-                                "e_hangs.yaml"], cwd=root, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-    time.sleep(0.7)
-    begun = time.monotonic()
-    process.send_signal(signal.SIGTERM)
-    try:
-        said, _ = process.communicate(timeout=20)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        said, _ = process.communicate()
-    took = time.monotonic() - begun
-    report(process.returncode == 4 and "elasticity/e_hangs" in said,
-           f"SIGTERM, e_hangs: exit {process.returncode} (4) after {took:.1f} s", said)
+    code, said, took = kernels.terminated(root, "e_hangs.yaml", "e_hangs-r")
+    report(code == 4 and "elasticity/e_hangs" in said,
+           f"SIGTERM, e_hangs: exit {code} (4) after {took:.1f} s", said)
 
 
 def main():
