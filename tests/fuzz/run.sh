@@ -1,7 +1,8 @@
 # run.sh SECONDS READER...: each reader from its corpus for so many seconds. What is new and
 # interesting goes to $builddir/fuzz/found/READER, an input that fails to $builddir/fuzz/faults.
 # FUZZ_RUNS (a number) bounds the inputs, FUZZ_SEED fixes their order, FUZZ_PROGRAMS is the folder
-# of the readers.
+# of the readers, FUZZ_TIMEOUT the seconds by the clock that an input may take (more where others
+# use the machine).
 # shellcheck disable=SC2154 # srcdir and builddir come from the harness
 set -u
 seconds=$1
@@ -54,8 +55,9 @@ for reader in "$@"; do
   gather "$reader"
   mkdir -p "$found" "$builddir/fuzz/faults"
   if "$program" -help=1 2>&1 | grep -q libFuzzer; then
-    "$program" -max_len=8192 -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+    "$program" -max_len=8192 -timeout="${FUZZ_TIMEOUT:-10}" -rss_limit_mb=2048 \
       -max_total_time="$seconds" -runs="${FUZZ_RUNS:--1}" -seed="${FUZZ_SEED:-0}" \
+      -print_final_stats=1 \
       -artifact_prefix="$builddir/fuzz/faults/$reader-" -dict="$(dictionary "$reader")" \
       "$found" "$scratch/$reader" 2>&1
   else
