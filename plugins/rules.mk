@@ -26,7 +26,7 @@ plugin_link = $(CC) -shared $(PLUGIN_LINK_FLAGS) $(SANITIZER_FLAGS)
 openmp_flags = $(if $(filter solver/%,$(1)),$(OPENMP_CFLAGS),$(OPENMP_SIMD_FLAGS))
 
 # --- gamut-header --------------------------------------------------------------------------------
-header_rooms = error unit tree expression descriptor
+header_rooms = base unit tree expression descriptor
 header_objects = $(patsubst %.c,%.lo,$(filter \
   $(foreach room,$(header_rooms),framework/$(room)/%.c) framework/field/catalogue.c,\
   $(libgamut_sources)))

@@ -7,8 +7,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#include "error/exclusive.h"
-#include "error/memory.h"
+#include "base/exclusive.h"
+#include "base/memory.h"
 
 /* Sanitizers have an allocator of their own, which none may stand before. gcc says by a macro that
  * there is one, clang otherwise. */

@@ -2,7 +2,7 @@
 #ifndef GAMUT_COMMAND_H
 #define GAMUT_COMMAND_H
 
-#include "error/error.h"
+#include "base/error.h"
 #include "registry/registry.h"
 #include "unit/unit.h"
 

@@ -7,8 +7,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/array.h"
+#include "base/memory.h"
 #include "command/options.h"
-#include "error/memory.h"
 #include "registry/registry.h"
 
 /* What goes into the templates. */
@@ -113,7 +114,7 @@ static bool name_is_good(const char *name)
   for (size_t i = 0; i < length; i++)
     if (!islower((unsigned char)name[i]) && !isdigit((unsigned char)name[i]) && name[i] != '_')
       return false;
-  for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
+  for (size_t i = 0; i < ARRAY_SIZE(taken); i++)
     if (strcmp(taken[i], name) == 0)
       return false;
   return true;

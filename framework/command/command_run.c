@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "command/command_run.h"
 #include "command/scene_arguments.h"
 #include "registry/guard.h"
@@ -41,7 +42,7 @@ static void catch_signals(void)
   catch_one(SIGINT, (int)SA_RESETHAND); /* a second Ctrl-C ends at once */
   catch_one(SIGTERM, (int)SA_RESETHAND);
   catch_one(SIGHUP, (int)SA_RESETHAND); /* the terminal was closed */
-  for (size_t i = 0; i < sizeof batch / sizeof batch[0]; i++)
+  for (size_t i = 0; i < ARRAY_SIZE(batch); i++)
     catch_one(batch[i], 0);
   guard_obey(&interrupted);
   /* A run of hours does not end because somebody closed a pager. */
@@ -224,7 +225,7 @@ gamut_status command_run(struct command *command)
   gamut_status status = GAMUT_OK;
   struct scene *scene = NULL;
   char *folder = NULL;
-  TRY(options_read(command, option, sizeof option / sizeof option[0], &arguments.file, 1, 1, NULL));
+  TRY(options_read(command, option, ARRAY_SIZE(option), &arguments.file, 1, 1, NULL));
   TRY(scene_from_arguments(command, arguments.file, &arguments.set, &scene));
   folder = arguments.folder ? strdup(arguments.folder) : standard_folder(arguments.file);
   arguments.folder = folder;

@@ -1,8 +1,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "base/memory.h"
 #include "command/options.h"
-#include "error/memory.h"
 #include "scene/scene.h"
 #include "store/file.h"
 

@@ -2,10 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "command/find_plugin.h"
 #include "command/options.h"
 #include "conformance/conformance.h"
-#include "error/memory.h"
 
 /* One plugin's checks as a TAP subtest: its lines indented, then one line for all of them. */
 static gamut_status verify_nested(struct command *command, const struct descriptor *descriptor,

@@ -1,8 +1,8 @@
 /* gamut-header FILE.yaml: prints NAME.gamut.h. The build runs it before there is a `gamut`. */
 #include <stdio.h>
 
+#include "base/error.h"
 #include "descriptor/descriptor.h"
-#include "error/error.h"
 #include "unit/unit.h"
 
 int main(int count, char **argument)

@@ -1,4 +1,5 @@
 #include "command/help.h"
+#include "base/array.h"
 
 #include <string.h>
 
@@ -11,7 +12,7 @@ static const struct entry {
     COMMAND_LIST(HELP_ENTRY)
 #undef HELP_ENTRY
 };
-enum { ENTRIES = sizeof entries / sizeof entries[0] };
+enum { ENTRIES = ARRAY_SIZE(entries) };
 
 static const struct details {
   const char *name, *text;
@@ -105,7 +106,7 @@ bool help_command(const char *name, FILE *out)
       continue;
     fprintf(out, "gamut %s: %s\n\nUsage: gamut %s %s\n\n", name, entries[i].line, name,
             entries[i].arguments);
-    for (size_t k = 0; k < sizeof details / sizeof details[0]; k++)
+    for (size_t k = 0; k < ARRAY_SIZE(details); k++)
       if (strcmp(details[k].name, name) == 0)
         fprintf(out, "%s\n", details[k].text);
     fputs(common, out);

@@ -8,10 +8,11 @@
 #include <gsl/gsl_errno.h>
 #include <hdf5.h>
 
+#include "base/array.h"
+#include "base/exclusive.h"
 #include "command/command.h"
 #include "command/help.h"
 #include "command/options.h"
-#include "error/exclusive.h"
 #include "registry/guard.h"
 
 static const struct entry {
@@ -22,7 +23,7 @@ static const struct entry {
     COMMAND_LIST(MAIN_ENTRY)
 #undef MAIN_ENTRY
 };
-enum { ENTRIES = sizeof entries / sizeof entries[0] };
+enum { ENTRIES = ARRAY_SIZE(entries) };
 
 struct common {
   struct registry_options registry;

@@ -1,4 +1,5 @@
 #include "command/options.h"
+#include "base/array.h"
 
 #include <errno.h>
 #include <limits.h>
@@ -14,7 +15,7 @@ static const struct usage {
     COMMAND_LIST(USAGE_ENTRY)
 #undef USAGE_ENTRY
 };
-enum { USAGES = sizeof usages / sizeof usages[0] };
+enum { USAGES = ARRAY_SIZE(usages) };
 
 const char *usage_arguments(const char *command)
 {

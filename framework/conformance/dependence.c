@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "conformance/suite.h"
 
 enum { POINTS = 64, LINES = 12, ON_LINE = 257, SUSPECTS = 6, HALVINGS = 1200 };
@@ -211,7 +212,7 @@ static void prove_argument(struct suite *suite, const char *result_name, const c
 
 void prove_dependence(struct suite *suite)
 {
-  for (size_t c = 0; c < sizeof callees / sizeof callees[0]; c++)
+  for (size_t c = 0; c < ARRAY_SIZE(callees); c++)
     for (size_t k = 0; callees[c].kind == suite->proof->descriptor->kind && callees[c].argument[k];
          k++)
       prove_argument(suite, callees[c].result, callees[c].argument[k]);

@@ -1,6 +1,7 @@
 /* eos: pressure and its slopes, a real sound speed, no pressure of nothing. */
 #include <math.h>
 
+#include "base/array.h"
 #include "conformance/suite.h"
 
 /* Points that are fine must have a sound speed above zero. */
@@ -72,7 +73,7 @@ static void prove_wave(struct proof *proof, struct block *block, kernel_function
 static void prove_vacuum(struct proof *proof, struct block *block, kernel_function function)
 {
   static const double compression[] = {-1.0, -1.0 - 1e-15, -1.5, -1e3};
-  const size_t kinds = sizeof compression / sizeof compression[0];
+  const size_t kinds = ARRAY_SIZE(compression);
   size_t let_go = 0, slot = slot_named(proof, SLOT_INPUT, "compression");
   check_begin(&proof->checks, "vacuum");
   if (slot == SIZE_MAX)

@@ -1,10 +1,11 @@
+#include "base/array.h"
 #include "conformance/conformance_private.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 
 char *trace_text(struct trace *trace)
 {
@@ -41,7 +42,7 @@ static double usual(const struct parameter *p)
     const char *unit;
     double value;
   } known[] = {{"Pa", 1e9}, {"K", 1000}, {"kg/m3", 8000}, {"m/s", 4000}, {"J/(kg K)", 400}};
-  for (size_t i = 0; p->unit && i < sizeof known / sizeof known[0]; i++)
+  for (size_t i = 0; p->unit && i < ARRAY_SIZE(known); i++)
     if (strcmp(known[i].unit, p->unit) == 0)
       return known[i].value;
   return 1.0;
@@ -269,7 +270,7 @@ struct span span_of(const char *name)
       {"velocity", {-500, 500, 1, NULL, 0}},
   };
   size_t best = SIZE_MAX, length = 0;
-  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+  for (size_t i = 0; i < ARRAY_SIZE(known); i++) {
     size_t size = strlen(known[i].prefix);
     if (size > length && strncmp(name, known[i].prefix, size) == 0) {
       best = i;

@@ -79,7 +79,7 @@
 
 #include <gamut/plugin.h>
 
-#include "error/error.h"
+#include "base/error.h"
 #include "tree/tree.h"
 #include "unit/unit.h"
 

@@ -2,9 +2,8 @@
 #ifndef GAMUT_DESCRIPTOR_PRIVATE_H
 #define GAMUT_DESCRIPTOR_PRIVATE_H
 
+#include "base/array.h"
 #include "descriptor/descriptor.h"
-
-#define LENGTH(array) (sizeof(array) / sizeof((array)[0]))
 
 /* Memory that lives as long as the descriptor; freed in one go. */
 struct keep {
@@ -28,13 +27,14 @@ void *reader_keep(struct reader *, size_t count, size_t size);
 char *reader_text(struct reader *, const char *text, size_t length);
 
 /* Records a fault at a node's value or at its key. `expected` may be null. */
-void fault(struct reader *, const struct tree *, const char *expected, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
-void fault_key(struct reader *, const struct tree *, const char *expected, const char *format, ...)
-    __attribute__((format(printf, 4, 5)));
+void reader_error_at_value(struct reader *, const struct tree *, const char *expected,
+                           const char *format, ...) __attribute__((format(printf, 4, 5)));
+void reader_error_at_key(struct reader *, const struct tree *, const char *expected,
+                         const char *format, ...) __attribute__((format(printf, 4, 5)));
 /* The same with "did you mean 'x'?" where one of the names is near, else the list of them. */
-void fault_unknown(struct reader *, const struct tree *, bool at_key, const char *const *known,
-                   size_t count, const char *format, ...) __attribute__((format(printf, 6, 7)));
+void reader_error_at_unknown(struct reader *, const struct tree *, bool at_key,
+                             const char *const *known, size_t count, const char *format, ...)
+    __attribute__((format(printf, 6, 7)));
 
 /* False with a fault if the node is no mapping. Each key that is not known is a fault. */
 bool check_keys(struct reader *, const struct tree *, const char *const *known, size_t count,

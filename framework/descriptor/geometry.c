@@ -8,7 +8,7 @@ static const struct geometry known[] = {
 
 const struct geometry *geometry_named(const char *name)
 {
-  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+  for (size_t i = 0; i < ARRAY_SIZE(known); i++)
     if (strcmp(known[i].name, name) == 0)
       return &known[i];
   return NULL;
@@ -22,7 +22,8 @@ void check_geometry(struct reader *reader, const struct tree *root)
     return;
   for (size_t i = 0; i < p->choices; i++)
     if (!geometry_named(p->choice[i]))
-      fault(reader, tree_at(root, "parameters.geometry.choices"),
-            "1d, plane_strain, axisymmetric or 3d",
-            "no scene knows the geometry '%s': nothing says how many axes it has", p->choice[i]);
+      reader_error_at_value(reader, tree_at(root, "parameters.geometry.choices"),
+                            "1d, plane_strain, axisymmetric or 3d",
+                            "no scene knows the geometry '%s': nothing says how many axes it has",
+                            p->choice[i]);
 }

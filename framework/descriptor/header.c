@@ -124,7 +124,7 @@ static void put_choice(FILE *file, const struct descriptor *d, const struct stan
   for (size_t k = 0; k < p->choices; k++) {
     const char *part[] = {d->name, "_", stand->prefix, p->name, "_", p->choice[k]};
     fputs("  ", file);
-    for (size_t i = 0; i < sizeof part / sizeof part[0]; i++)
+    for (size_t i = 0; i < ARRAY_SIZE(part); i++)
       put_upper(file, part[i]);
     fputs(k + 1 < p->choices ? ",\n" : "\n", file);
   }

@@ -10,7 +10,7 @@ const char *kind_name(enum gamut_kind kind)
       GAMUT_KIND_LIST(KIND_NAME)
 #undef KIND_NAME
   };
-  assert((size_t)kind < LENGTH(name));
+  assert((size_t)kind < ARRAY_SIZE(name));
   return name[kind];
 }
 
@@ -36,7 +36,7 @@ const char *kind_operation(enum gamut_kind kind, size_t index)
       [GAMUT_KIND_SOLVER] = {"create", "destroy", "start", "next", "after", "plane", "measure",
                              "describe", "save", "restore", "removal"},
   };
-  return index < LENGTH(operation[kind]) ? operation[kind][index] : NULL;
+  return index < ARRAY_SIZE(operation[kind]) ? operation[kind][index] : NULL;
 }
 
 const char *value_type_name(enum value_type type)
@@ -49,7 +49,7 @@ const char *value_type_name(enum value_type type)
       [VALUE_TABLE] = "table",     [VALUE_LEVELS] = "levels",
       [VALUE_PLUGIN] = "plugin",   [VALUE_GROUP] = "group",
   };
-  return (size_t)type < LENGTH(name) ? name[type] : NULL;
+  return (size_t)type < ARRAY_SIZE(name) ? name[type] : NULL;
 }
 
 bool kernel_sees(const struct parameter *parameter)

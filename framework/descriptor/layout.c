@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/memory.h"
 #include "descriptor/descriptor_private.h"
-#include "error/memory.h"
 #include "field/catalogue.h"
 
 /* First pass: slots is null, slots and characters are counted. Second pass: both are written into
@@ -254,16 +254,16 @@ void check_layout(struct reader *reader, const struct tree *root)
     if (slots[i].component != 0)
       continue;
     if (is_reserved(slots[i].name))
-      fault_key(reader, node, "another name", "'%s' has a meaning in C or in formulas",
-                slots[i].name);
+      reader_error_at_key(reader, node, "another name", "'%s' has a meaning in C or in formulas",
+                          slots[i].name);
     for (size_t k = 0; k < i; k++)
       if (slots[k].component == 0 && strcmp(slots[k].name, slots[i].name) == 0)
-        fault_key(reader, node,
-                  slots[k].kind == SLOT_INPUT && slots[i].kind == SLOT_OUTPUT
-                      ? "a field that is read and written belongs under 'state'"
-                      : "another name",
-                  "'%s' is declared twice, under '%s' and under '%s'", slots[i].name,
-                  section_of(slots[k].kind), section_of(slots[i].kind));
+        reader_error_at_key(reader, node,
+                            slots[k].kind == SLOT_INPUT && slots[i].kind == SLOT_OUTPUT
+                                ? "a field that is read and written belongs under 'state'"
+                                : "another name",
+                            "'%s' is declared twice, under '%s' and under '%s'", slots[i].name,
+                            section_of(slots[k].kind), section_of(slots[i].kind));
   }
   free(slots);
 }

@@ -59,7 +59,7 @@ static bool is_public(const char *name)
       "strength_law", "stream", "study_shape", "task",     "use",   "values"};
   if (strcmp(name, "gamut") == 0)
     return true;
-  for (size_t i = 0; strncmp(name, "gamut_", 6) == 0 && i < LENGTH(tag); i++)
+  for (size_t i = 0; strncmp(name, "gamut_", 6) == 0 && i < ARRAY_SIZE(tag); i++)
     if (strcmp(name + 6, tag[i]) == 0)
       return true;
   return false;
@@ -78,25 +78,26 @@ static bool read_identity(struct reader *reader, const struct tree *root)
   const struct tree *node = tree_get(root, "plugin");
   const char *slash = strchr(d->id, '/');
   if (!slash) {
-    fault(reader, node, "kind/name, such as eos/linear", "'%s' names no kind", d->id);
+    reader_error_at_value(reader, node, "kind/name, such as eos/linear", "'%s' names no kind",
+                          d->id);
     return false;
   }
   const char *kind = reader_text(reader, d->id, (size_t)(slash - d->id));
   d->name = slash + 1;
   if (!kind_from_name(kind, &d->kind)) {
     char expected[256] = "";
-    const char *near = nearest(kind, kinds, LENGTH(kinds));
+    const char *near = nearest(kind, kinds, ARRAY_SIZE(kinds));
     if (near)
       snprintf(expected, sizeof expected, "did you mean '%s'?", near);
     else
-      for (size_t k = 0; k < LENGTH(kinds); k++)
+      for (size_t k = 0; k < ARRAY_SIZE(kinds); k++)
         snprintf(expected + strlen(expected), sizeof expected - strlen(expected), "%s%s",
                  k ? ", " : "known are ", kinds[k]);
-    fault(reader, node, expected, "'%s' is no kind of plugin", kind);
+    reader_error_at_value(reader, node, expected, "'%s' is no kind of plugin", kind);
     return false;
   }
   if (is_reserved(d->name) || is_public(d->name)) {
-    fault(reader, node, "another name", "a plugin cannot be called '%s'", d->name);
+    reader_error_at_value(reader, node, "another name", "a plugin cannot be called '%s'", d->name);
     return false;
   }
   return check_name(reader, node, false, d->name);
@@ -116,7 +117,8 @@ static void check_place(struct reader *reader, const struct tree *root, const ch
   const char *base = slash ? slash + 1 : path;
   snprintf(expected, sizeof expected, "%s.yaml", d->name);
   if (strcmp(base, expected) != 0)
-    fault(reader, node, expected, "plugin '%s' stands in a file called '%s'", d->name, base);
+    reader_error_at_value(reader, node, expected, "plugin '%s' stands in a file called '%s'",
+                          d->name, base);
   if (!slash) {
     d->folder = ".";
     return;
@@ -132,24 +134,25 @@ static void check_place(struct reader *reader, const struct tree *root, const ch
   if (!above || !kind_from_name(above + 1, &kind))
     return;
   if (kind != d->kind)
-    fault(reader, node, NULL, "plugin '%s' stands in the folder of the kind '%s'", d->id,
-          above + 1);
+    reader_error_at_value(reader, node, NULL, "plugin '%s' stands in the folder of the kind '%s'",
+                          d->id, above + 1);
   else if (strcmp(folder, d->name) != 0)
-    fault(reader, node, NULL, "plugin '%s' stands in a folder called '%s'", d->name, folder);
+    reader_error_at_value(reader, node, NULL, "plugin '%s' stands in a folder called '%s'", d->name,
+                          folder);
 }
 
 static void check_sections(struct reader *reader, const struct tree *root)
 {
   struct descriptor *d = reader->descriptor;
-  const char *known[LENGTH(sections)];
-  for (size_t i = 0; i < LENGTH(sections); i++)
+  const char *known[ARRAY_SIZE(sections)];
+  for (size_t i = 0; i < ARRAY_SIZE(sections); i++)
     known[i] = sections[i].key;
-  check_keys(reader, root, known, LENGTH(known), "a plugin's YAML");
-  for (size_t i = 0; i < LENGTH(sections); i++) {
+  check_keys(reader, root, known, ARRAY_SIZE(known), "a plugin's YAML");
+  for (size_t i = 0; i < ARRAY_SIZE(sections); i++) {
     const struct tree *node = tree_get(root, sections[i].key);
     if (node && !(sections[i].kinds & KIND(d->kind)))
-      fault_key(reader, node, NULL, "'%s' has no meaning for plugins of kind %s", sections[i].key,
-                kind_name(d->kind));
+      reader_error_at_key(reader, node, NULL, "'%s' has no meaning for plugins of kind %s",
+                          sections[i].key, kind_name(d->kind));
   }
 }
 
@@ -166,8 +169,8 @@ static void check_outputs(struct reader *reader, const struct tree *root)
       found = strcmp(d->output[i].name, must[d->kind][m]) == 0;
     const struct tree *outputs = tree_get(root, "outputs");
     if (!found)
-      fault_key(reader, outputs ? outputs : root, NULL, "a plugin of kind %s writes '%s'",
-                kind_name(d->kind), must[d->kind][m]);
+      reader_error_at_key(reader, outputs ? outputs : root, NULL, "a plugin of kind %s writes '%s'",
+                          kind_name(d->kind), must[d->kind][m]);
   }
 }
 
@@ -178,17 +181,17 @@ static void check_names(struct reader *reader, const struct tree *root, const ch
   for (size_t i = 0; i < count; i++)
     if (!kernel_sees(&parameter[i]) &&
         parameter_named(d->parameter, d->parameters, parameter[i].name))
-      fault_key(reader, tree_get(tree_get(root, section), parameter[i].name), "another name",
-                "'%s' is declared twice, under 'parameters' and under '%s'", parameter[i].name,
-                section);
+      reader_error_at_key(
+          reader, tree_get(tree_get(root, section), parameter[i].name), "another name",
+          "'%s' is declared twice, under 'parameters' and under '%s'", parameter[i].name, section);
 }
 
 static void read_all(struct reader *reader, const struct tree *root, const char *file)
 {
   struct descriptor *d = reader->descriptor;
   if (root->kind != TREE_MAPPING) {
-    fault(reader, root, "keys with values, beginning with \"plugin: kind/name\"",
-          "this is no plugin's YAML");
+    reader_error_at_value(reader, root, "keys with values, beginning with \"plugin: kind/name\"",
+                          "this is no plugin's YAML");
     return;
   }
   if (!read_identity(reader, root))

@@ -15,7 +15,8 @@ static bool read_field(struct reader *reader, const struct tree *item, struct fi
     own = item->child[0];
   const char *written = own ? own->key : item->text;
   if (item->kind == TREE_SEQUENCE || written[0] == 0) {
-    fault(reader, item, "a name, or \"name: {unit: Pa, components: 1}\"", "this is no field");
+    reader_error_at_value(reader, item, "a name, or \"name: {unit: Pa, components: 1}\"",
+                          "this is no field");
     return false;
   }
   size_t length = strlen(written);
@@ -24,7 +25,7 @@ static bool read_field(struct reader *reader, const struct tree *item, struct fi
   if (!check_name(reader, own ? own : item, own != NULL, use->name))
     return false;
   const struct field_info *entry = catalogue_find(use->name);
-  if (own && check_keys(reader, own, keys, LENGTH(keys), use->name)) {
+  if (own && check_keys(reader, own, keys, ARRAY_SIZE(keys), use->name)) {
     use->unit = read_unit(reader, own, "unit", !entry);
     use->components =
         (unsigned)read_whole(reader, own, "components", 1, CATALOGUE_COMPONENTS_MAX, 1);
@@ -35,7 +36,8 @@ static bool read_field(struct reader *reader, const struct tree *item, struct fi
   } else if (!own) {
     const char *known[128];
     size_t count = 0;
-    for (const struct field_info *v; count < LENGTH(known) && (v = catalogue_at(count)); count++)
+    for (const struct field_info *v; count < ARRAY_SIZE(known) && (v = catalogue_at(count));
+         count++)
       known[count] = v->name;
     char expected[256];
     const char *near = nearest(use->name, known, count);
@@ -43,7 +45,7 @@ static bool read_field(struct reader *reader, const struct tree *item, struct fi
              "%s%s%sanother plugin's state is written \"%s: {unit: .., "
              "components: ..}\"",
              near ? "did you mean '" : "", near ? near : "", near ? "'? " : "", use->name);
-    fault(reader, item, expected, "unknown field '%s'", use->name);
+    reader_error_at_value(reader, item, expected, "unknown field '%s'", use->name);
     return false;
   }
   if (!use->unit)
@@ -56,7 +58,7 @@ static size_t read_uses(struct reader *reader, const struct tree *node, struct f
   if (!node)
     return 0;
   if (node->kind != TREE_SEQUENCE) {
-    fault(reader, node, "[pressure, sound_speed]", "'%s' is no list", node->key);
+    reader_error_at_value(reader, node, "[pressure, sound_speed]", "'%s' is no list", node->key);
     return 0;
   }
   size_t count = 0;
@@ -74,7 +76,7 @@ static void read_state(struct reader *reader, const struct tree *node, struct st
   state->unit = "1";
   state->components = 1;
   if (!check_name(reader, node, true, node->key) ||
-      !check_keys(reader, node, keys, LENGTH(keys), node->key))
+      !check_keys(reader, node, keys, ARRAY_SIZE(keys), node->key))
     return;
   const struct field_info *entry = catalogue_find(node->key);
   const char *unit = read_unit(reader, node, "unit", !entry);
@@ -84,10 +86,11 @@ static void read_state(struct reader *reader, const struct tree *node, struct st
   state->doc = read_text(reader, node, "doc", !entry);
   if (entry) {
     if (unit && strcmp(unit, entry->unit) != 0)
-      fault(reader, tree_get(node, "unit"), entry->unit, "'%s' has another unit", node->key);
+      reader_error_at_value(reader, tree_get(node, "unit"), entry->unit, "'%s' has another unit",
+                            node->key);
     if (state->components != entry->components)
-      fault(reader, tree_get(node, "components"), NULL, "'%s' has %u components", node->key,
-            entry->components);
+      reader_error_at_value(reader, tree_get(node, "components"), NULL, "'%s' has %u components",
+                            node->key, entry->components);
     unit = entry->unit;
     state->components = entry->components;
     if (!state->doc)
@@ -96,8 +99,8 @@ static void read_state(struct reader *reader, const struct tree *node, struct st
   state->unit = unit ? unit : "1";
   const char *initial = read_text(reader, node, "initial", false);
   if (initial && unit_read_bare(reader->units, initial, state->unit, &state->initial) != UNIT_OK)
-    fault(reader, tree_get(node, "initial"), unit_example(state->unit),
-          "the initial value '%s' is no quantity in %s", initial, state->unit);
+    reader_error_at_value(reader, tree_get(node, "initial"), unit_example(state->unit),
+                          "the initial value '%s' is no quantity in %s", initial, state->unit);
 }
 
 static void read_states(struct reader *reader, const struct tree *node)
@@ -106,7 +109,7 @@ static void read_states(struct reader *reader, const struct tree *node)
   if (!node)
     return;
   if (node->kind != TREE_MAPPING) {
-    fault(reader, node, "{name: {unit: Pa, doc: ...}}", "'state' is no mapping");
+    reader_error_at_value(reader, node, "{name: {unit: Pa, doc: ...}}", "'state' is no mapping");
     return;
   }
   d->state = reader_keep(reader, node->children, sizeof *d->state);
@@ -126,8 +129,8 @@ static void read_laws(struct reader *reader, const struct tree *node)
     bool optional = text[i][length - 1] == '?';
     const char *name = optional ? reader_text(reader, text[i], length - 1) : text[i];
     if (strcmp(name, "eos") != 0 && strcmp(name, "strength") != 0)
-      fault_unknown(reader, node->kind == TREE_SEQUENCE ? node->child[i] : node, false, known,
-                    LENGTH(known), "'%s' is no law", name);
+      reader_error_at_unknown(reader, node->kind == TREE_SEQUENCE ? node->child[i] : node, false,
+                              known, ARRAY_SIZE(known), "'%s' is no law", name);
     else
       d->law[d->laws++] = (struct field_use){.name = name, .optional = optional};
   }
@@ -146,23 +149,24 @@ static void read_derivatives(struct reader *reader, const struct tree *node)
 {
   static const char *const keys[] = {"of", "by"};
   struct descriptor *d = reader->descriptor;
-  if (!node || !check_keys(reader, node, keys, LENGTH(keys), "'derivatives'"))
+  if (!node || !check_keys(reader, node, keys, ARRAY_SIZE(keys), "'derivatives'"))
     return;
   d->derivative_of = read_text(reader, node, "of", true);
   if (d->derivative_of && !use_named(d->output, d->outputs, d->derivative_of))
-    fault(reader, tree_get(node, "of"), NULL, "'%s' is no output", d->derivative_of);
+    reader_error_at_value(reader, tree_get(node, "of"), NULL, "'%s' is no output",
+                          d->derivative_of);
   const struct tree *by = tree_get(node, "by");
   if (!by)
-    fault_key(reader, node, NULL, "'by' is missing");
+    reader_error_at_key(reader, node, NULL, "'by' is missing");
   d->derivative_by = read_texts(reader, by, "by", &d->derivatives);
   for (size_t i = 0; i < d->derivatives; i++) {
     const struct parameter *parameter =
         parameter_named(d->parameter, d->parameters, d->derivative_by[i]);
     const struct field_use *input = use_named(d->input, d->inputs, d->derivative_by[i]);
     if (!(parameter && parameter->type == VALUE_REAL) && !(input && input->components == 1))
-      fault(reader, by->kind == TREE_SEQUENCE ? by->child[i] : by, NULL,
-            "'%s' is neither a real parameter nor an input with one component",
-            d->derivative_by[i]);
+      reader_error_at_value(reader, by->kind == TREE_SEQUENCE ? by->child[i] : by, NULL,
+                            "'%s' is neither a real parameter nor an input with one component",
+                            d->derivative_by[i]);
   }
   if (!d->derivative_of)
     d->derivatives = 0;

@@ -8,14 +8,14 @@ static bool read_severity(struct reader *reader, const struct tree *node,
 {
   static const char *const known[] = {"note", "warn", "stop"};
   const char *text = read_text(reader, node, "severity", true);
-  for (size_t i = 0; text && i < LENGTH(known); i++)
+  for (size_t i = 0; text && i < ARRAY_SIZE(known); i++)
     if (strcmp(text, known[i]) == 0) {
       *severity = (enum gamut_severity)(GAMUT_NOTE + (int)i);
       return true;
     }
   if (text)
-    fault_unknown(reader, tree_get(node, "severity"), false, known, LENGTH(known),
-                  "unknown severity '%s'", text);
+    reader_error_at_unknown(reader, tree_get(node, "severity"), false, known, ARRAY_SIZE(known),
+                            "unknown severity '%s'", text);
   return false;
 }
 
@@ -26,8 +26,8 @@ static void read_message_list(struct reader *reader, const struct tree *node)
   if (!node)
     return;
   if (node->kind != TREE_MAPPING || node->children > 256) {
-    fault(reader, node, "{name: {severity: stop, text: ...}}, at most 256",
-          "'messages' is no mapping of messages");
+    reader_error_at_value(reader, node, "{name: {severity: stop, text: ...}}, at most 256",
+                          "'messages' is no mapping of messages");
     return;
   }
   d->message = reader_keep(reader, node->children, sizeof *d->message);
@@ -37,10 +37,10 @@ static void read_message_list(struct reader *reader, const struct tree *node)
     message->name = child->key;
     check_name(reader, child, true, child->key);
     if (strcmp(child->key, "scratch") == 0)
-      fault_key(reader, child, NULL,
-                "a message cannot be called 'scratch': the generated header "
-                "has that constant");
-    if (!check_keys(reader, child, keys, LENGTH(keys), "a message"))
+      reader_error_at_key(reader, child, NULL,
+                          "a message cannot be called 'scratch': the generated header "
+                          "has that constant");
+    if (!check_keys(reader, child, keys, ARRAY_SIZE(keys), "a message"))
       continue;
     message->text = read_text(reader, child, "text", true);
     if (read_severity(reader, child, &message->severity) && message->text)
@@ -70,10 +70,10 @@ static const char **read_accesses(struct reader *reader, const struct tree *task
   bool written = strcmp(key, "reads") != 0;
   for (size_t i = 0; i < *count; i++)
     if (!is_field(reader->descriptor, list[i], written))
-      fault(reader, node->kind == TREE_SEQUENCE ? node->child[i] : node,
-            written ? "declare it under 'outputs' or 'state'"
-                    : "declare it under 'inputs' or 'state'",
-            "'%s' is no field of this plugin", list[i]);
+      reader_error_at_value(reader, node->kind == TREE_SEQUENCE ? node->child[i] : node,
+                            written ? "declare it under 'outputs' or 'state'"
+                                    : "declare it under 'inputs' or 'state'",
+                            "'%s' is no field of this plugin", list[i]);
   return list;
 }
 
@@ -84,15 +84,16 @@ static void read_tasks(struct reader *reader, const struct tree *node)
   if (!node)
     return;
   if (node->kind != TREE_SEQUENCE) {
-    fault(reader, node, "[{kernel: heat, phase: after material, reads: [..], writes: [..]}]",
-          "'tasks' is no list");
+    reader_error_at_value(reader, node,
+                          "[{kernel: heat, phase: after material, reads: [..], writes: [..]}]",
+                          "'tasks' is no list");
     return;
   }
   d->task = reader_keep(reader, node->children, sizeof *d->task);
   for (size_t i = 0; i < node->children; i++) {
     const struct tree *item = node->child[i];
     struct kernel_task *task = &d->task[d->tasks];
-    if (!check_keys(reader, item, keys, LENGTH(keys), "a task"))
+    if (!check_keys(reader, item, keys, ARRAY_SIZE(keys), "a task"))
       continue;
     task->kernel = read_text(reader, item, "kernel", true);
     task->phase = read_text(reader, item, "phase", true);
@@ -100,7 +101,8 @@ static void read_tasks(struct reader *reader, const struct tree *node)
     task->write = read_accesses(reader, item, "writes", &task->writes);
     task->add = read_accesses(reader, item, "adds", &task->adds);
     if (task->writes + task->adds == 0)
-      fault(reader, item, "writes: [..] or adds: [..]", "this task changes nothing");
+      reader_error_at_value(reader, item, "writes: [..] or adds: [..]",
+                            "this task changes nothing");
     if (task->kernel && task->phase)
       d->tasks++;
   }
@@ -119,7 +121,7 @@ static void check_kernel(struct reader *reader, const struct tree *item, const c
   for (size_t i = 0; i < count && !taken; i++)
     taken = strcmp(earlier[i], kernel) == 0;
   if (taken)
-    fault(reader, node, "another name", "a kernel '%s' is there already", kernel);
+    reader_error_at_value(reader, node, "another name", "a kernel '%s' is there already", kernel);
 }
 
 /* Kernels of variants and tasks become members of one struct. */
@@ -129,7 +131,7 @@ static void check_kernels(struct reader *reader, const struct tree *root)
   const char **names = reader_keep(reader, d->variants + d->tasks, sizeof *names);
   size_t count = 0;
   const char *const sections[] = {"variants", "tasks"};
-  for (size_t s = 0; s < LENGTH(sections); s++) {
+  for (size_t s = 0; s < ARRAY_SIZE(sections); s++) {
     const struct tree *list = tree_get(root, sections[s]);
     for (size_t i = 0; list && i < list->children; i++) {
       const struct tree *kernel = tree_get(list->child[i], "kernel");

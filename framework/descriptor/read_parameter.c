@@ -49,26 +49,26 @@ static enum value_type read_type(struct reader *reader, const struct tree *node)
     if (strcmp(known[type], text) == 0)
       return (enum value_type)type;
   }
-  fault_unknown(reader, tree_get(node, "type"), false, known, LENGTH(known), "unknown type '%s'",
-                text);
+  reader_error_at_unknown(reader, tree_get(node, "type"), false, known, ARRAY_SIZE(known),
+                          "unknown type '%s'", text);
   return VALUE_REAL;
 }
 
 static void check_parameter_keys(struct reader *reader, const struct tree *node,
                                  enum value_type type)
 {
-  const char *known[LENGTH(key_types)];
+  const char *known[ARRAY_SIZE(key_types)];
   size_t count = 0;
-  for (size_t i = 0; i < LENGTH(key_types); i++)
+  for (size_t i = 0; i < ARRAY_SIZE(key_types); i++)
     known[count++] = key_types[i].key;
   char what[96];
   snprintf(what, sizeof what, "parameter '%s'", node->key);
   check_keys(reader, node, known, count, what);
-  for (size_t i = 0; i < LENGTH(key_types); i++) {
+  for (size_t i = 0; i < ARRAY_SIZE(key_types); i++) {
     const struct tree *child = tree_get(node, key_types[i].key);
     if (child && !(key_types[i].types & BIT(type)))
-      fault_key(reader, child, NULL, "'%s' has no meaning for a parameter of type %s",
-                key_types[i].key, value_type_name(type));
+      reader_error_at_key(reader, child, NULL, "'%s' has no meaning for a parameter of type %s",
+                          key_types[i].key, value_type_name(type));
   }
 }
 
@@ -81,7 +81,8 @@ static void read_range(struct reader *reader, const struct tree *node, const cha
     return;
   const char *unit = parameter->unit ? parameter->unit : "1";
   if (!range_read(text, unit, reader->units, range, why, sizeof why)) {
-    fault(reader, tree_get(node, key), NULL, "cannot read the range '%s': %s", text, why);
+    reader_error_at_value(reader, tree_get(node, key), NULL, "cannot read the range '%s': %s", text,
+                          why);
     range->stated = false;
   }
 }
@@ -102,8 +103,9 @@ static void read_size(struct reader *reader, const struct tree *node, struct par
     good = after != next;
   }
   if (!good || *after || low < 1 || high < low || high > 1000) {
-    fault(reader, tree_get(node, "size"), "a number such as 3, or a span such as 1..3",
-          "'%s' is no size of a vector", text);
+    reader_error_at_value(reader, tree_get(node, "size"),
+                          "a number such as 3, or a span such as 1..3",
+                          "'%s' is no size of a vector", text);
     return;
   }
   parameter->size_min = (size_t)low;
@@ -115,8 +117,8 @@ static void read_columns(struct reader *reader, const struct tree *node,
 {
   const struct tree *columns = tree_get(node, "columns");
   if (!columns || columns->kind != TREE_MAPPING || columns->children == 0) {
-    fault(reader, columns ? columns : node, "columns: {time: s, strain: 1}",
-          "table '%s' has no columns", parameter->name);
+    reader_error_at_value(reader, columns ? columns : node, "columns: {time: s, strain: 1}",
+                          "table '%s' has no columns", parameter->name);
     return;
   }
   parameter->choice = reader_keep(reader, columns->children, sizeof *parameter->choice);
@@ -136,7 +138,8 @@ static void read_choices(struct reader *reader, const struct tree *node, const c
   const struct tree *list = tree_get(node, key);
   parameter->choice = read_texts(reader, list, key, &parameter->choices);
   if (!list || (list->kind == TREE_SEQUENCE && list->children == 0))
-    fault(reader, list ? list : node, NULL, "'%s' of '%s' is missing", key, parameter->name);
+    reader_error_at_value(reader, list ? list : node, NULL, "'%s' of '%s' is missing", key,
+                          parameter->name);
 }
 
 static void check_default_number(struct reader *reader, const struct tree *node,
@@ -150,17 +153,19 @@ static void check_default_number(struct reader *reader, const struct tree *node,
                                 : UNIT_NOT_A_NUMBER;
   snprintf(expected, sizeof expected, "for example '%s'", unit_example(unit));
   if (result != UNIT_OK)
-    fault(reader, node, expected, "the default '%s' of '%s' is no quantity in %s", node->text,
-          parameter->name, unit);
+    reader_error_at_value(reader, node, expected, "the default '%s' of '%s' is no quantity in %s",
+                          node->text, parameter->name, unit);
   else if (parameter->type == VALUE_INTEGER && value != floor(value))
-    fault(reader, node, NULL, "the default '%s' of '%s' is no whole number", node->text,
-          parameter->name);
+    reader_error_at_value(reader, node, NULL, "the default '%s' of '%s' is no whole number",
+                          node->text, parameter->name);
   else if (!range_holds(&parameter->physical, value))
-    fault(reader, node, range_text(&parameter->physical, unit, expected, sizeof expected),
-          "the default of '%s' lies outside its physical range", parameter->name);
+    reader_error_at_value(reader, node,
+                          range_text(&parameter->physical, unit, expected, sizeof expected),
+                          "the default of '%s' lies outside its physical range", parameter->name);
   else if (!range_holds(&parameter->fit, value))
-    fault(reader, node, range_text(&parameter->fit, unit, expected, sizeof expected),
-          "the default of '%s' lies outside the range of its fit", parameter->name);
+    reader_error_at_value(reader, node,
+                          range_text(&parameter->fit, unit, expected, sizeof expected),
+                          "the default of '%s' lies outside the range of its fit", parameter->name);
 }
 
 static void check_default_vector(struct reader *reader, const struct tree *node,
@@ -171,7 +176,8 @@ static void check_default_vector(struct reader *reader, const struct tree *node,
     char expected[96];
     snprintf(expected, sizeof expected, "a list of %zu to %zu numbers", parameter->size_min,
              parameter->size_max);
-    fault(reader, node, expected, "the default of '%s' has the wrong size", parameter->name);
+    reader_error_at_value(reader, node, expected, "the default of '%s' has the wrong size",
+                          parameter->name);
     return;
   }
   for (size_t i = 0; i < node->children; i++)
@@ -192,20 +198,22 @@ static void check_default(struct reader *reader, const struct parameter *paramet
     return;
   case VALUE_BOOLEAN:
     if (!scalar || (strcmp(node->text, "true") != 0 && strcmp(node->text, "false") != 0))
-      fault(reader, node, "true or false", "the default of '%s' is neither true nor false",
-            parameter->name);
+      reader_error_at_value(reader, node, "true or false",
+                            "the default of '%s' is neither true nor false", parameter->name);
     return;
   case VALUE_CHOICE:
     for (size_t i = 0; scalar && i < parameter->choices; i++)
       if (strcmp(parameter->choice[i], node->text) == 0)
         return;
-    fault_unknown(reader, node, false, (const char *const *)parameter->choice, parameter->choices,
-                  "the default '%s' of '%s' is none of its choices", node->text, parameter->name);
+    reader_error_at_unknown(reader, node, false, (const char *const *)parameter->choice,
+                            parameter->choices, "the default '%s' of '%s' is none of its choices",
+                            node->text, parameter->name);
     return;
   case VALUE_TEXT:
   case VALUE_BODY:
     if (!scalar)
-      fault(reader, node, "one text", "the default of '%s' is no text", parameter->name);
+      reader_error_at_value(reader, node, "one text", "the default of '%s' is no text",
+                            parameter->name);
     return;
   case VALUE_EXPRESSION:
   case VALUE_TABLE:
@@ -224,8 +232,8 @@ static void read_kind(struct reader *reader, const struct tree *node, struct par
     return;
   for (int kind = 0; kind < GAMUT_KINDS; kind++)
     known[kind] = kind_name((enum gamut_kind)kind);
-  fault_unknown(reader, tree_get(node, "kind"), false, known, LENGTH(known),
-                "unknown kind of plugin '%s'", text);
+  reader_error_at_unknown(reader, tree_get(node, "kind"), false, known, ARRAY_SIZE(known),
+                          "unknown kind of plugin '%s'", text);
 }
 
 static void read_by_type(struct reader *reader, const struct tree *node,
@@ -249,7 +257,7 @@ static void read_by_type(struct reader *reader, const struct tree *node,
     break;
   case VALUE_GROUP:
     if (!tree_get(node, "members"))
-      fault_key(reader, node, NULL, "group '%s' has no members", parameter->name);
+      reader_error_at_key(reader, node, NULL, "group '%s' has no members", parameter->name);
     parameter->members =
         read_parameters(reader, tree_get(node, "members"), true, &parameter->member);
     break;
@@ -262,12 +270,14 @@ static void read_by_type(struct reader *reader, const struct tree *node,
 static const char *read_unit_of(struct reader *reader, const struct tree *node, bool argument)
 {
   static const char *const others[] = {"unit", "default", "physical", "fit", "usual"};
-  for (size_t i = 0; i < LENGTH(others) && tree_get(node, "unit_of"); i++)
+  for (size_t i = 0; i < ARRAY_SIZE(others) && tree_get(node, "unit_of"); i++)
     if (tree_get(node, others[i]))
-      fault(reader, tree_get(node, others[i]), NULL,
-            "'unit_of' leaves the unit to the scene: '%s' cannot stand beside it", others[i]);
+      reader_error_at_value(reader, tree_get(node, others[i]), NULL,
+                            "'unit_of' leaves the unit to the scene: '%s' cannot stand beside it",
+                            others[i]);
   if (tree_get(node, "unit_of") && !argument)
-    fault(reader, tree_get(node, "unit_of"), NULL, "only an argument of a measure has 'unit_of'");
+    reader_error_at_value(reader, tree_get(node, "unit_of"), NULL,
+                          "only an argument of a measure has 'unit_of'");
   return read_text(reader, node, "unit_of", false);
 }
 
@@ -277,7 +287,8 @@ static void read_parameter(struct reader *reader, const struct tree *node, bool 
   parameter->name = node->key;
   check_name(reader, node, true, node->key);
   if (node->kind != TREE_MAPPING) {
-    fault(reader, node, "{unit: Pa, doc: ...}", "parameter '%s' is no mapping", node->key);
+    reader_error_at_value(reader, node, "{unit: Pa, doc: ...}", "parameter '%s' is no mapping",
+                          node->key);
     return;
   }
   enum value_type type = parameter->type = read_type(reader, node);
@@ -287,7 +298,7 @@ static void read_parameter(struct reader *reader, const struct tree *node, bool 
     parameter->unit =
         read_unit(reader, node, "unit", dimensional && !tree_get(node, "unit_of"));
   if (type == VALUE_INTEGER && parameter->unit && strcmp(parameter->unit, "1") != 0)
-    fault(reader, tree_get(node, "unit"), NULL, "an integer has no unit but 1");
+    reader_error_at_value(reader, tree_get(node, "unit"), NULL, "an integer has no unit but 1");
   if (!parameter->unit && (dimensional || type == VALUE_INTEGER))
     parameter->unit = "1";
   parameter->unit_of = read_unit_of(reader, node, !documented);
@@ -302,8 +313,9 @@ static void read_parameter(struct reader *reader, const struct tree *node, bool 
   read_range(reader, node, "physical", parameter, &parameter->physical);
   read_range(reader, node, "usual", parameter, &parameter->usual);
   if (!range_within(&parameter->fit, &parameter->physical))
-    fault(reader, tree_get(node, "fit"), NULL,
-          "the range of the fit of '%s' reaches beyond its physical range", parameter->name);
+    reader_error_at_value(reader, tree_get(node, "fit"), NULL,
+                          "the range of the fit of '%s' reaches beyond its physical range",
+                          parameter->name);
   parameter->standard = tree_get(node, "default");
   /* A unit that cannot be read is one fault, not two. */
   bool judged = !dimensional || tree_get(node, "unit");
@@ -319,7 +331,8 @@ size_t read_parameters(struct reader *reader, const struct tree *node, bool docu
     return 0;
   if (node->kind != TREE_MAPPING) {
     if (node->kind == TREE_SEQUENCE || node->text[0])
-      fault(reader, node, "{name: {unit: Pa, doc: ...}}", "'%s' is no mapping", node->key);
+      reader_error_at_value(reader, node, "{name: {unit: Pa, doc: ...}}", "'%s' is no mapping",
+                            node->key);
     return 0;
   }
   *list = reader_keep(reader, node->children, sizeof **list);

@@ -18,7 +18,8 @@ static void read_constraints(struct reader *reader, const struct tree *node)
   for (size_t i = 0; i < d->constraints; i++) {
     const char *text = d->constraint[i];
     if (!strpbrk(text, "<>") && !strstr(text, "==") && !strstr(text, "!="))
-      fault(reader, item_of(node, i), "such as \"T_melt > T_room\"", "'%s' compares nothing", text);
+      reader_error_at_value(reader, item_of(node, i), "such as \"T_melt > T_room\"",
+                            "'%s' compares nothing", text);
     check_expression(reader, item_of(node, i), text, names, count);
   }
 }
@@ -39,7 +40,7 @@ static size_t read_ranges(struct reader *reader, const struct tree *node, const 
 {
   char why[256];
   if (node->kind != TREE_MAPPING) {
-    fault(reader, node, "{name: \"(0, inf)\"}", "'%s' is no mapping", what);
+    reader_error_at_value(reader, node, "{name: \"(0, inf)\"}", "'%s' is no mapping", what);
     return 0;
   }
   *list = reader_keep(reader, node->children, sizeof **list);
@@ -48,7 +49,8 @@ static size_t read_ranges(struct reader *reader, const struct tree *node, const 
     const char *text = read_text(reader, node, node->child[i]->key, true);
     need->parameter = node->child[i]->key;
     if (text && !range_read(text, "1", reader->units, &need->range, why, sizeof why))
-      fault(reader, node->child[i], NULL, "cannot read the range '%s': %s", text, why);
+      reader_error_at_value(reader, node->child[i], NULL, "cannot read the range '%s': %s", text,
+                            why);
   }
   return node->children;
 }
@@ -79,7 +81,8 @@ static void check_declared(struct reader *reader, const struct tree *node, bool 
   const char **known;
   size_t count = arithmetic_names(reader, &known);
   if (!contains(known, count, name))
-    fault_unknown(reader, node, at_key, known, count, "'%s' is no parameter with a number", name);
+    reader_error_at_unknown(reader, node, at_key, known, count,
+                            "'%s' is no parameter with a number", name);
 }
 
 /* What formulas of one set may use: what the set gives, what it has derived so far, and parameters
@@ -106,18 +109,18 @@ static size_t usable_names(struct reader *reader, const struct given_set *set, s
 static void read_given_names(struct reader *reader, const struct tree *node, struct given_set *set)
 {
   static const char *const keys[] = {"set", "then"};
-  if (!check_keys(reader, node, keys, LENGTH(keys), "a set of 'given'"))
+  if (!check_keys(reader, node, keys, ARRAY_SIZE(keys), "a set of 'given'"))
     return;
   const struct tree *names = tree_get(node, "set"), *then = tree_get(node, "then");
   if (!names)
-    fault(reader, node, "{set: [a, b], then: {c: \"a * b\"}}", "'set' is missing");
+    reader_error_at_value(reader, node, "{set: [a, b], then: {c: \"a * b\"}}", "'set' is missing");
   set->name = read_texts(reader, names, "set", &set->names);
   for (size_t i = 0; i < set->names; i++)
     check_declared(reader, item_of(names, i), false, set->name[i]);
   if (!then)
     return;
   if (then->kind != TREE_MAPPING) {
-    fault(reader, then, "{c: \"a * b\"}", "'then' is no mapping");
+    reader_error_at_value(reader, then, "{c: \"a * b\"}", "'then' is no mapping");
     return;
   }
   set->derived = reader_keep(reader, then->children, sizeof *set->derived);
@@ -126,8 +129,8 @@ static void read_given_names(struct reader *reader, const struct tree *node, str
     const struct tree *child = then->child[i];
     check_declared(reader, child, true, child->key);
     if (contains(set->name, set->names, child->key))
-      fault_key(reader, child, NULL, "'%s' is given by this set, so it cannot follow from it",
-                child->key);
+      reader_error_at_key(reader, child, NULL,
+                          "'%s' is given by this set, so it cannot follow from it", child->key);
     set->derived[i] = child->key;
     set->formula[i] = read_text(reader, then, child->key, true);
     if (!set->formula[i])
@@ -142,7 +145,7 @@ static void read_given(struct reader *reader, const struct tree *node)
   if (!node)
     return;
   if (node->kind != TREE_SEQUENCE || node->children < 2) {
-    fault(reader, node, "a list of two sets or more", "'given' offers no choice");
+    reader_error_at_value(reader, node, "a list of two sets or more", "'given' offers no choice");
     return;
   }
   d->given = reader_keep(reader, node->children, sizeof *d->given);
@@ -166,7 +169,8 @@ static void read_variants(struct reader *reader, const struct tree *node)
   if (!node)
     return;
   if (node->kind != TREE_SEQUENCE) {
-    fault(reader, node, "[{when: \"C == 0\", kernel: name}]", "'variants' is no list");
+    reader_error_at_value(reader, node, "[{when: \"C == 0\", kernel: name}]",
+                          "'variants' is no list");
     return;
   }
   const char **names;
@@ -175,7 +179,7 @@ static void read_variants(struct reader *reader, const struct tree *node)
   for (size_t i = 0; i < node->children; i++) {
     const struct tree *item = node->child[i];
     struct variant *variant = &d->variant[d->variants];
-    if (!check_keys(reader, item, keys, LENGTH(keys), "a variant"))
+    if (!check_keys(reader, item, keys, ARRAY_SIZE(keys), "a variant"))
       continue;
     variant->when = read_text(reader, item, "when", true);
     variant->kernel = read_text(reader, item, "kernel", true);
@@ -188,7 +192,8 @@ static void read_variants(struct reader *reader, const struct tree *node)
       for (size_t n = 0; n < d->inputs && !input; n++)
         input = strcmp(d->input[n].name, variant->drop[k]) == 0;
       if (!input)
-        fault(reader, item_of(drops, k), NULL, "'%s' is no input", variant->drop[k]);
+        reader_error_at_value(reader, item_of(drops, k), NULL, "'%s' is no input",
+                              variant->drop[k]);
     }
     if (variant->when && variant->kernel)
       d->variants++;

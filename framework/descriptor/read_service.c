@@ -61,8 +61,9 @@ static void check_unit_of(struct reader *reader, const struct tree *node,
   const struct parameter *by =
       unit_of ? parameter_named(measure->argument, measure->arguments, unit_of) : NULL;
   if (unit_of && (!by || by->type != VALUE_TEXT))
-    fault(reader, tree_get(node, "unit_of"), "an argument of type text, which names a field",
-          "measure '%s' has no such argument '%s'", measure->name, unit_of);
+    reader_error_at_value(reader, tree_get(node, "unit_of"),
+                          "an argument of type text, which names a field",
+                          "measure '%s' has no such argument '%s'", measure->name, unit_of);
 }
 
 static void read_measure(struct reader *reader, const struct tree *node, const char *const *names,
@@ -74,31 +75,31 @@ static void read_measure(struct reader *reader, const struct tree *node, const c
   measure->name = node->key;
   measure->unit = "1";
   check_name(reader, node, true, node->key);
-  if (!check_keys(reader, node, keys, LENGTH(keys), "a measure"))
+  if (!check_keys(reader, node, keys, ARRAY_SIZE(keys), "a measure"))
     return;
   measure->unit_of = read_text(reader, node, "unit_of", false);
   const char *unit = read_unit(reader, node, "unit", !measure->unit_of);
   if (unit && measure->unit_of)
-    fault(reader, tree_get(node, "unit"), NULL,
-          "'unit_of' leaves the unit to the scene: 'unit' cannot stand beside it");
+    reader_error_at_value(reader, tree_get(node, "unit"), NULL,
+                          "'unit_of' leaves the unit to the scene: 'unit' cannot stand beside it");
   measure->unit = unit ? unit : "1";
   measure->doc = read_text(reader, node, "doc", true);
   measure->formula = read_text(reader, node, "formula", false);
   const char *at = read_text(reader, node, "at", true);
   bool known = !at;
-  for (size_t i = 0; at && i < LENGTH(places); i++)
+  for (size_t i = 0; at && i < ARRAY_SIZE(places); i++)
     if (strcmp(at, places[i]) == 0) {
       measure->at = (enum measure_at)i;
       known = true;
     }
   if (!known)
-    fault_unknown(reader, tree_get(node, "at"), false, places, LENGTH(places),
-                  "'%s' is no place of a measure", at);
+    reader_error_at_unknown(reader, tree_get(node, "at"), false, places, ARRAY_SIZE(places),
+                            "'%s' is no place of a measure", at);
   if (measure->formula)
     check_expression(reader, tree_get(node, "formula"), measure->formula, names, count);
   else if (known && measure->at == MEASURE_POINT && !is_measurable(measure->name, names, count))
-    fault_key(reader, node, "a formula, or the name of a field",
-              "measure '%s' at points has no formula", node->key);
+    reader_error_at_key(reader, node, "a formula, or the name of a field",
+                        "measure '%s' at points has no formula", node->key);
   measure->arguments =
       read_parameters(reader, tree_get(node, "arguments"), false, &measure->argument);
   check_unit_of(reader, node, measure, measure->unit_of);
@@ -120,9 +121,9 @@ static void read_against(struct reader *reader, const struct tree *node, struct 
   const struct measure *axis = measure->against;
   if (!axis || axis == measure || axis->at != measure->at || axis->arguments ||
       axis->at == MEASURE_POINT)
-    fault(reader, tree_get(node, "against"),
-          "another measure at the same body or run, no arguments",
-          "measure '%s' cannot be taken against '%s'", measure->name, name);
+    reader_error_at_value(reader, tree_get(node, "against"),
+                          "another measure at the same body or run, no arguments",
+                          "measure '%s' cannot be taken against '%s'", measure->name, name);
 }
 
 static void read_measures(struct reader *reader, const struct tree *node)
@@ -131,7 +132,8 @@ static void read_measures(struct reader *reader, const struct tree *node)
   if (!node)
     return;
   if (node->kind != TREE_MAPPING) {
-    fault(reader, node, "{name: {unit: Pa, at: point, doc: ...}}", "'measures' is no mapping");
+    reader_error_at_value(reader, node, "{name: {unit: Pa, at: point, doc: ...}}",
+                          "'measures' is no mapping");
     return;
   }
   const char **names;
@@ -147,7 +149,7 @@ static void read_axis(struct reader *reader, const struct tree *node)
 {
   static const char *const keys[] = {"name", "unit"};
   struct descriptor *d = reader->descriptor;
-  if (!node || !check_keys(reader, node, keys, LENGTH(keys), "'axis'"))
+  if (!node || !check_keys(reader, node, keys, ARRAY_SIZE(keys), "'axis'"))
     return;
   const char *name = read_text(reader, node, "name", true);
   const char *unit = read_unit(reader, node, "unit", true);
@@ -163,8 +165,8 @@ static void read_yields(struct reader *reader, const struct tree *root)
     return;
   reader->descriptor->yields_table = strcmp(text, known[1]) == 0;
   if (!reader->descriptor->yields_table && strcmp(text, known[0]) != 0)
-    fault(reader, tree_get(root, "yields"), "moments or table", "an estimator cannot yield '%s'",
-          text);
+    reader_error_at_value(reader, tree_get(root, "yields"), "moments or table",
+                          "an estimator cannot yield '%s'", text);
 }
 
 void read_services(struct reader *reader, const struct tree *root)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "expression/expression.h"
 
 void *reader_keep(struct reader *reader, size_t count, size_t size)
@@ -37,8 +37,8 @@ static void record(struct reader *reader, const struct tree *node, const struct 
   reader->faults++;
 }
 
-void fault(struct reader *reader, const struct tree *node, const char *expected, const char *format,
-           ...)
+void reader_error_at_value(struct reader *reader, const struct tree *node, const char *expected,
+                           const char *format, ...)
 {
   va_list list;
   va_start(list, format);
@@ -46,8 +46,8 @@ void fault(struct reader *reader, const struct tree *node, const char *expected,
   va_end(list);
 }
 
-void fault_key(struct reader *reader, const struct tree *node, const char *expected,
-               const char *format, ...)
+void reader_error_at_key(struct reader *reader, const struct tree *node, const char *expected,
+                         const char *format, ...)
 {
   va_list list;
   va_start(list, format);
@@ -55,8 +55,8 @@ void fault_key(struct reader *reader, const struct tree *node, const char *expec
   va_end(list);
 }
 
-void fault_unknown(struct reader *reader, const struct tree *node, bool at_key,
-                   const char *const *known, size_t count, const char *format, ...)
+void reader_error_at_unknown(struct reader *reader, const struct tree *node, bool at_key,
+                             const char *const *known, size_t count, const char *format, ...)
 {
   char expected[512] = "";
   const char *near = nearest(at_key ? node->key : node->text, known, count);
@@ -79,7 +79,8 @@ bool check_keys(struct reader *reader, const struct tree *node, const char *cons
                 size_t count, const char *what)
 {
   if (node->kind != TREE_MAPPING) {
-    fault(reader, node, "keys with values, \"key: value\"", "%s is no mapping", what);
+    reader_error_at_value(reader, node, "keys with values, \"key: value\"", "%s is no mapping",
+                          what);
     return false;
   }
   for (size_t i = 0; i < node->children; i++) {
@@ -89,7 +90,8 @@ bool check_keys(struct reader *reader, const struct tree *node, const char *cons
     for (size_t k = 0; k < count && !found; k++)
       found = strcmp(child->key, known[k]) == 0;
     if (!found)
-      fault_unknown(reader, child, true, known, count, "unknown key '%s' in %s", child->key, what);
+      reader_error_at_unknown(reader, child, true, known, count, "unknown key '%s' in %s",
+                              child->key, what);
   }
   return true;
 }
@@ -108,9 +110,9 @@ bool check_name(struct reader *reader, const struct tree *node, bool at_key, con
 {
   if (is_name(name))
     return true;
-  (at_key ? fault_key : fault)(reader, node,
-                               "a letter, then letters, digits and '_', at most 63 of them",
-                               "'%s' cannot be a name", name);
+  (at_key ? reader_error_at_key : reader_error_at_value)(
+      reader, node, "a letter, then letters, digits and '_', at most 63 of them",
+      "'%s' cannot be a name", name);
   return false;
 }
 
@@ -126,7 +128,7 @@ bool is_reserved(const char *name)
       "log",      "log10",    "sin",    "cos",      "tan",      "asin",     "acos",     "atan",
       "sinh",     "cosh",     "tanh",   "abs",      "min",      "max",      "pow",      "pi",
   };
-  for (size_t i = 0; i < LENGTH(word); i++)
+  for (size_t i = 0; i < ARRAY_SIZE(word); i++)
     if (strcmp(word[i], name) == 0)
       return true;
   return false;
@@ -138,11 +140,11 @@ const char *read_text(struct reader *reader, const struct tree *mapping, const c
   const struct tree *node = tree_get(mapping, key);
   if (!node) {
     if (required)
-      fault_key(reader, mapping, NULL, "'%s' is missing", key);
+      reader_error_at_key(reader, mapping, NULL, "'%s' is missing", key);
     return NULL;
   }
   if (node->kind != TREE_SCALAR || node->text[0] == 0) {
-    fault(reader, node, "one text", "'%s' has no value", key);
+    reader_error_at_value(reader, node, "one text", "'%s' has no value", key);
     return NULL;
   }
   return node->text;
@@ -156,7 +158,7 @@ bool read_flag(struct reader *reader, const struct tree *mapping, const char *ke
   if (node->kind == TREE_SCALAR && strcmp(node->text, "true") == 0)
     return true;
   if (node->kind != TREE_SCALAR || strcmp(node->text, "false") != 0)
-    fault(reader, node, "true or false", "'%s' is neither true nor false", key);
+    reader_error_at_value(reader, node, "true or false", "'%s' is neither true nor false", key);
   return false;
 }
 
@@ -172,7 +174,7 @@ long read_whole(struct reader *reader, const struct tree *mapping, const char *k
       value <= upper)
     return value;
   snprintf(expected, sizeof expected, "a whole number from %ld to %ld", lower, upper);
-  fault(reader, node, expected, "'%s' cannot be '%s'", key, node->text);
+  reader_error_at_value(reader, node, expected, "'%s' cannot be '%s'", key, node->text);
   return standard;
 }
 
@@ -188,21 +190,21 @@ const char **read_texts(struct reader *reader, const struct tree *node, const ch
     return one;
   }
   if (node->kind != TREE_SEQUENCE) {
-    fault(reader, node, "a list, \"[one, two]\"", "'%s' is no list", what);
+    reader_error_at_value(reader, node, "a list, \"[one, two]\"", "'%s' is no list", what);
     return NULL;
   }
   const char **list = reader_keep(reader, node->children, sizeof *list);
   for (size_t i = 0; i < node->children; i++) {
     const struct tree *item = node->child[i];
     if (item->kind != TREE_SCALAR || item->text[0] == 0) {
-      fault(reader, item, "one text", "an item of '%s' has no value", what);
+      reader_error_at_value(reader, item, "one text", "an item of '%s' has no value", what);
       continue;
     }
     bool twice = false;
     for (size_t k = 0; k < *count && !twice; k++)
       twice = strcmp(list[k], item->text) == 0;
     if (twice)
-      fault(reader, item, NULL, "'%s' stands twice in '%s'", item->text, what);
+      reader_error_at_value(reader, item, NULL, "'%s' stands twice in '%s'", item->text, what);
     else
       list[(*count)++] = item->text;
   }
@@ -214,8 +216,9 @@ const char *read_unit(struct reader *reader, const struct tree *mapping, const c
 {
   const char *unit = read_text(reader, mapping, key, required);
   if (unit && strcmp(unit, "1") != 0 && !unit_alike(reader->units, unit, unit)) {
-    fault(reader, tree_get(mapping, key), "a unit such as Pa, kg/m3, 1/s; 1 for pure numbers",
-          "'%s' is no unit", unit);
+    reader_error_at_value(reader, tree_get(mapping, key),
+                          "a unit such as Pa, kg/m3, 1/s; 1 for pure numbers", "'%s' is no unit",
+                          unit);
     return NULL;
   }
   return unit;
@@ -238,7 +241,7 @@ bool check_expression(struct reader *reader, const struct tree *node, const char
   char why[256] = "";
   struct expression *expression = expression_new(text, names, count, why, sizeof why);
   if (!expression)
-    fault(reader, node, NULL, "cannot read '%s': %s", text, why);
+    reader_error_at_value(reader, node, NULL, "cannot read '%s': %s", text, why);
   expression_free(expression);
   return expression != NULL;
 }

@@ -6,7 +6,7 @@
 #include <gsl/gsl_errno.h>
 #include <hdf5.h>
 
-#include "error/exclusive.h"
+#include "base/exclusive.h"
 #include "registry/registry.h"
 #include "run/run.h"
 #include "scene/scene.h"

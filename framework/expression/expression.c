@@ -1,4 +1,5 @@
 #include "expression/expression.h"
+#include "base/array.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -8,8 +9,8 @@
 
 #include <muParserDLL.h>
 
-#include "error/error.h"
-#include "error/exclusive.h"
+#include "base/error.h"
+#include "base/exclusive.h"
 
 /* muParser's C interface copies names and messages, unchecked, to a buffer of 2048 bytes: a formula
  * must be so short that no word of it can run over. */
@@ -52,7 +53,7 @@ static const struct {
     {"sinh", sinh}, {"cosh", cosh}, {"tanh", tanh}, {"abs", fabs},
 };
 
-enum { FUNCTIONS = sizeof functions / sizeof *functions };
+enum { FUNCTIONS = ARRAY_SIZE(functions) };
 
 static bool is_taken(const char *name, const char *const *names, size_t count)
 {
@@ -172,7 +173,7 @@ static bool is_function(const char *word)
   for (size_t k = 0; k < FUNCTIONS; k++)
     if (strcmp(word, functions[k].name) == 0)
       return true;
-  return is_taken(word, others, sizeof others / sizeof *others);
+  return is_taken(word, others, ARRAY_SIZE(others));
 }
 
 /* Puts muParser's error in plain words. It counts positions from 0 and has one buffer for all its

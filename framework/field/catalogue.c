@@ -1,4 +1,5 @@
 #include "field/catalogue.h"
+#include "base/array.h"
 
 #include <assert.h>
 #include <string.h>
@@ -10,7 +11,7 @@ static const struct field_info catalogue[] = {
 #undef CATALOGUE_ENTRY
 };
 
-enum { CATALOGUE_SIZE = sizeof(catalogue) / sizeof(catalogue[0]) };
+enum { CATALOGUE_SIZE = ARRAY_SIZE(catalogue) };
 
 const struct field_info *catalogue_find(const char *name)
 {

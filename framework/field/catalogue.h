@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 /* X(name, where, components, unit, meaning). Symmetric tensors: xx yy zz xy yz zx. Full tensors:
  * row by row, xx xy xz yx yy yz zx zy zz. */

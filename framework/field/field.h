@@ -6,9 +6,9 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
-#include "error/error.h"
+#include "base/error.h"
 
 /* Who gives a field its values where no task writes it. */
 enum given {

@@ -2,8 +2,7 @@
 
 #include <string.h>
 
-/* Rows never lie a multiple of a page apart, whatever the chunk. */
-enum { SLACK = 24 };
+#include "base/array.h"
 
 struct lane_scratch {
   size_t chunk, stride, components;
@@ -14,7 +13,7 @@ struct lane_scratch {
 
 static size_t row_stride(size_t chunk)
 {
-  return chunk + SLACK;
+  return chunk + ARRAY_PAD;
 }
 
 size_t scratch_bytes(const struct fields *fields, size_t chunk)

@@ -2,11 +2,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "field/catalogue.h"
 #include "material/material_private.h"
 #include "registry/guard.h"
-
-enum { SLACK = 24 };
 
 /* Arguments of a law are set by its caller; only other inputs come from fields. */
 static bool is_argument(int role, const char *name)
@@ -117,7 +116,7 @@ static bool wants_law(const struct descriptor *d, const char *name)
 static gamut_status allocate_scratch(struct bound_material *bound, struct thread_state *state)
 {
   const struct kernel *kernel = bound->kernel[ELASTICITY];
-  size_t stride = bound->chunk + SLACK, row = 0;
+  size_t stride = bound->chunk + ARRAY_PAD, row = 0;
   for (size_t s = 0; s < kernel->slots; s++)
     row += kernel->slot[s].kind == SLOT_SCRATCH;
   state->scratch =

@@ -1,10 +1,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "field/catalogue.h"
 #include "material/block_image.h"
-
-enum { SLACK = 24 };
 
 struct effect_task {
   struct gamut_use *use;
@@ -118,7 +117,7 @@ done:
 static gamut_status make_seats(struct bound_effect *bound)
 {
   static const char label[] = "scratch of effects";
-  size_t stride = GAMUT_CHUNK_MAX + SLACK;
+  size_t stride = GAMUT_CHUNK_MAX + ARRAY_PAD;
   bound->per_thread = arena_take(bound->arena, label, bound->threads * sizeof *bound->per_thread);
   if (!bound->per_thread)
     return GAMUT_INTERNAL;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "field/catalogue.h"
 #include "material/law.h"
 #include "registry/guard.h"
@@ -69,7 +70,7 @@ gamut_status bench_new(const struct kernel *kernel, const struct kernel *eos,
   bench->kernel = kernel;
   bench->arena = kernel->arena;
   bench->count = count;
-  bench->stride = (count + GUARD + 7) / 8 * 8 + 24;
+  bench->stride = (count + GUARD + 7) / 8 * 8 + ARRAY_PAD;
   bench->memory =
       arena_take(bench->arena, "bench", (kernel->slots + 1) * bench->stride * sizeof(double));
   bench->image = image_new(kernel, bench->arena, count + GUARD, "bench");

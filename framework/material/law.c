@@ -3,9 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "registry/guard.h"
-
-enum { SLACK = 24 };
 
 static bool has_row(const struct kernel *kernel, size_t slot)
 {
@@ -153,7 +152,7 @@ gamut_status law_new(const struct kernel *kernel, struct arena *arena, size_t ro
   *out = law;
   law->kernel = kernel;
   law->rows = rows;
-  law->stride = rows + SLACK;
+  law->stride = rows + ARRAY_PAD;
   law->image = image_new(kernel, arena, rows, label);
   law->compact = image_new(kernel, arena, rows, label);
   size_t count = 2; /* the two spare rows come last */

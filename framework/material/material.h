@@ -5,8 +5,8 @@
 
 #include <gamut/plugin.h>
 
+#include "base/error.h"
 #include "descriptor/descriptor.h"
-#include "error/error.h"
 #include "field/field.h"
 #include "registry/registry.h"
 #include "scene/scene.h"

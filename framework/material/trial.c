@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "material/law.h"
 #include "registry/guard.h"
 
@@ -85,7 +86,7 @@ static double input_at(const char *name, size_t point)
                {"energy", 1.03e6, 1.01e6, 1},           {"cell_size", 1.03e-3, 1e-5, 1},
                {"pressure", 1.03e6, 1e6, 1},            {"time_step", 1.03e-6, 0, 1},
                {"volume_ratio", 0.973, 0.0071, 1}};
-  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
+  for (size_t i = 0; i < ARRAY_SIZE(known); i++)
     if (strcmp(name, known[i].name) == 0)
       return (known[i].first + (double)point * known[i].more) *
              pow(known[i].times, (double)point);
@@ -130,7 +131,7 @@ static void fill_law(struct law *law, size_t first, size_t count)
   for (size_t s = 0; s < law->kernel->slots; s++)
     for (size_t i = 0; slot_varies(law->kernel, s) && i < count; i++)
       ((double *)law->image->pointer[s])[i] = kernel_mean(law->kernel, s);
-  for (size_t a = 0; a < sizeof argument / sizeof argument[0]; a++) {
+  for (size_t a = 0; a < ARRAY_SIZE(argument); a++) {
     double *to = law_row(law, argument[a]);
     for (size_t i = 0; to && i < count; i++)
       to[i] = input_at(argument[a], first + i);

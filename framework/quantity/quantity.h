@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include "error/error.h"
+#include "base/error.h"
 #include "scene/scene.h"
 
 /* A recorded history. Times never change the step: samples lie at multiples of `every` (and at 0

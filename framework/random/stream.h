@@ -2,7 +2,7 @@
 #ifndef GAMUT_STREAM_H
 #define GAMUT_STREAM_H
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 /* The stream of a name in one realisation of a seed. */
 struct gamut_stream stream_make(uint64_t seed, uint64_t realisation, const char *name);

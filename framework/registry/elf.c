@@ -2,6 +2,7 @@
 #define _GNU_SOURCE 1
 #endif
 #include "registry/elf.h"
+#include "base/array.h"
 
 #include <elf.h>
 #include <link.h>
@@ -152,7 +153,7 @@ static bool holds_variables(const struct elf_file *elf, const section *s)
 {
   static const char *const known[] = {".data", ".bss", ".tdata", ".tbss", ".ldata", ".lbss"};
   const char *name = section_name(elf, s);
-  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+  for (size_t i = 0; i < ARRAY_SIZE(known); i++) {
     size_t length = strlen(known[i]);
     if (strncmp(name, known[i], length) == 0 && (name[length] == 0 || name[length] == '.'))
       return strncmp(name, ".data.rel.ro", strlen(".data.rel.ro")) != 0;

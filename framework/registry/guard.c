@@ -1,4 +1,6 @@
 #include "registry/guard.h"
+#include "base/array.h"
+#include "base/clock.h"
 
 #include <assert.h>
 #include <pthread.h>
@@ -9,17 +11,17 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 
 enum {
-  SEATS = 1280, /* threads that are watched at one time; crashes are named on any */
-  DEPTH = 16,   /* operations of plugins that call each other through the core */
+  STATES = 1280, /* threads that are watched at one time; crashes are named on any */
+  DEPTH = 16,    /* operations of plugins that call each other through the core */
   HANDLER_STACK = 65536,
   WATCH_STACK = 131072
 };
 
 /* What one thread does. */
-struct seat {
+struct thread_state {
   _Atomic(const char *) plugin; /* innermost; null: none */
   atomic_uint turn;             /* grows with every outermost call */
   atomic_bool unlimited;        /* the outermost call may take its time */
@@ -29,9 +31,9 @@ struct seat {
 };
 
 /* Signal handlers and the watch see the whole process: this state cannot belong to a run. */
-static struct seat seats[SEATS];
-static _Thread_local struct seat own; /* where all seats are taken */
-static _Thread_local struct seat *mine;
+static struct thread_state states[STATES];
+static _Thread_local struct thread_state own; /* where all states are taken */
+static _Thread_local struct thread_state *mine;
 static pthread_key_t leaving;
 static pthread_once_t once = PTHREAD_ONCE_INIT;
 static atomic_bool installed;
@@ -46,24 +48,24 @@ static const struct {
                {SIGFPE, "arithmetic error (SIGFPE)"},
                {SIGILL, "illegal instruction (SIGILL)"},
                {SIGABRT, "abort (SIGABRT)"}};
-enum { CRASHES = sizeof crashes / sizeof crashes[0] };
+enum { CRASHES = ARRAY_SIZE(crashes) };
 static struct sigaction before_us[CRASHES];
 
-struct desk {
-  struct seat *seat;
+struct thread_end {
+  struct thread_state *state;
   void *stack;
 };
 
 static void thread_ends(void *memory)
 {
-  struct desk *desk = memory;
+  struct thread_end *end = memory;
   const stack_t off = {.ss_flags = SS_DISABLE};
-  if (desk->stack)
+  if (end->stack)
     sigaltstack(&off, NULL);
-  free(desk->stack);
-  if (desk->seat)
-    atomic_store(&desk->seat->taken, false);
-  free(desk);
+  free(end->stack);
+  if (end->state)
+    atomic_store(&end->state->taken, false);
+  free(end);
 }
 
 static void make_key(void)
@@ -83,43 +85,43 @@ static void *handler_stack(void)
   return stack.ss_sp;
 }
 
-static struct seat *free_seat(void)
+static struct thread_state *free_state(void)
 {
-  for (size_t i = 0; i < SEATS; i++) {
+  for (size_t i = 0; i < STATES; i++) {
     bool taken = false;
-    if (atomic_compare_exchange_strong(&seats[i].taken, &taken, true))
-      return &seats[i];
+    if (atomic_compare_exchange_strong(&states[i].taken, &taken, true))
+      return &states[i];
   }
   return NULL;
 }
 
-static struct seat *sit_down(void)
+static struct thread_state *begin_thread(void)
 {
   pthread_once(&once, make_key);
-  struct desk *desk = calloc(1, sizeof *desk);
+  struct thread_end *end = calloc(1, sizeof *end);
   mine = &own;
-  if (!desk)
+  if (!end)
     return mine;
-  desk->seat = free_seat();
-  if (desk->seat)
-    mine = desk->seat;
+  end->state = free_state();
+  if (end->state)
+    mine = end->state;
   if (atomic_load(&installed))
-    desk->stack = handler_stack();
-  if (pthread_setspecific(leaving, desk) != 0)
-    thread_ends(desk);
+    end->stack = handler_stack();
+  if (pthread_setspecific(leaving, end) != 0)
+    thread_ends(end);
   return mine;
 }
 
 static const char *enter(const char *plugin, bool unlimited)
 {
-  struct seat *seat = mine ? mine : sit_down();
-  const char *before = atomic_load_explicit(&seat->plugin, memory_order_relaxed);
+  struct thread_state *state = mine ? mine : begin_thread();
+  const char *before = atomic_load_explicit(&state->plugin, memory_order_relaxed);
   if (!before) {
-    unsigned turn = atomic_load_explicit(&seat->turn, memory_order_relaxed);
-    atomic_store_explicit(&seat->turn, turn + 1, memory_order_relaxed);
-    atomic_store_explicit(&seat->unlimited, unlimited, memory_order_relaxed);
+    unsigned turn = atomic_load_explicit(&state->turn, memory_order_relaxed);
+    atomic_store_explicit(&state->turn, turn + 1, memory_order_relaxed);
+    atomic_store_explicit(&state->unlimited, unlimited, memory_order_relaxed);
   }
-  atomic_store_explicit(&seat->plugin, plugin, memory_order_relaxed);
+  atomic_store_explicit(&state->plugin, plugin, memory_order_relaxed);
   return before;
 }
 
@@ -168,8 +170,8 @@ static void say(const char *text)
 static const char *plugin_here(void)
 {
   const char *plugin = mine ? atomic_load(&mine->plugin) : NULL;
-  for (size_t i = 0; !plugin && !mine && i < SEATS; i++)
-    plugin = atomic_load(&seats[i].plugin);
+  for (size_t i = 0; !plugin && !mine && i < STATES; i++)
+    plugin = atomic_load(&states[i].plugin);
   return plugin;
 }
 
@@ -239,22 +241,16 @@ struct stay {
   double since;
 };
 
-static double clock_now(void)
+static void look_at(const struct thread_state *state, struct stay *stay, double now,
+                    double asked_for)
 {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void look_at(const struct seat *seat, struct stay *stay, double now, double asked_for)
-{
-  const char *plugin = atomic_load(&seat->plugin);
-  unsigned turn = atomic_load(&seat->turn);
+  const char *plugin = atomic_load(&state->plugin);
+  unsigned turn = atomic_load(&state->turn);
   if (!plugin || turn != stay->turn) {
     *stay = (struct stay){turn, now};
     return;
   }
-  if (!atomic_load(&seat->unlimited) && now - stay->since > atomic_load(&limit_seconds))
+  if (!atomic_load(&state->unlimited) && now - stay->since > atomic_load(&limit_seconds))
     end_by_plugin(plugin, " hangs: ", "it takes longer over one block of points than a kernel may");
   /* The first look after a call began may come a little late. */
   if (asked_for >= GUARD_GRACE_SECONDS && now - stay->since > 0.8 * GUARD_GRACE_SECONDS)
@@ -277,21 +273,21 @@ static _Noreturn void end_unfinished(int number)
 
 static void *watch(void *unused)
 {
-  static struct stay stay[SEATS];
+  static struct stay stay[STATES];
   const struct timespec pause = {.tv_nsec = 100000000};
-  double asked_at = clock_now();
+  double asked_at = clock_seconds(CLOCK_MONOTONIC);
   (void)unused;
   for (;;) {
     nanosleep(&pause, NULL);
-    const double now = clock_now();
+    const double now = clock_seconds(CLOCK_MONOTONIC);
     const volatile sig_atomic_t *stop = atomic_load(&asked);
     const int number = stop ? *stop : 0;
     if (number != SIGTERM)
       asked_at = now;
     const double asked_for = now - asked_at;
-    for (size_t i = 0; i < SEATS; i++)
-      if (atomic_load(&seats[i].taken))
-        look_at(&seats[i], &stay[i], now, asked_for);
+    for (size_t i = 0; i < STATES; i++)
+      if (atomic_load(&states[i].taken))
+        look_at(&states[i], &stay[i], now, asked_for);
     if (asked_for > GUARD_GRACE_SECONDS + 0.3)
       end_unfinished(number);
   }

@@ -12,8 +12,9 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "error/exclusive.h"
-#include "error/memory.h"
+#include "base/array.h"
+#include "base/exclusive.h"
+#include "base/memory.h"
 #include "registry/elf.h"
 #include "registry/guard.h"
 #include "registry/registry_private.h"
@@ -39,7 +40,7 @@ static gamut_status refuse(struct entry *entry, struct trace *trace, const char 
 static const struct {
   const char *suffix, *level, *word;
 } levels[] = {{".v4", "x86-64-v4", "v4"}, {".v3", "x86-64-v3", "v3"}, {"", "baseline", "baseline"}};
-enum { LEVELS = sizeof levels / sizeof levels[0] };
+enum { LEVELS = ARRAY_SIZE(levels) };
 
 static bool processor_has(size_t level)
 {
@@ -72,7 +73,7 @@ static bool find_object(struct entry *entry, struct trace *trace, char *file, si
 {
   static const char *const below[] = {"", "/.libs"};
   for (size_t i = level_allowed(trace); i < LEVELS; i++)
-    for (size_t k = 0; processor_has(i) && k < sizeof below / sizeof below[0]; k++) {
+    for (size_t k = 0; processor_has(i) && k < ARRAY_SIZE(below); k++) {
       snprintf(file, size, "%s%s/%s%s.so", entry->objects, below[k], entry->descriptor->name,
                levels[i].suffix);
       if (is_file(file)) {
@@ -283,7 +284,7 @@ static void take_ending(void *self, const char *name)
   static const char *const ending[] = {"_exit",  "_Exit", "quick_exit", "execv",   "execve",
                                        "execvp", "execl", "execlp",     "syscall", "vfork"};
   const char **found = self;
-  for (size_t i = 0; i < sizeof ending / sizeof ending[0]; i++)
+  for (size_t i = 0; i < ARRAY_SIZE(ending); i++)
     if (strcmp(name, ending[i]) == 0)
       *found = ending[i];
 }
@@ -315,7 +316,7 @@ static gamut_status check_object(struct entry *entry, const char *file, struct t
 static gamut_status check_owners(struct entry *entry, const char *file, struct trace *trace)
 {
   const char *const path[] = {file, entry->file};
-  for (size_t i = 0; i < sizeof path / sizeof path[0]; i++) {
+  for (size_t i = 0; i < ARRAY_SIZE(path); i++) {
     char part[PATH_MAX];
     const char *why = path_unsafe(path[i], part, sizeof part);
     if (why)

@@ -7,8 +7,8 @@
 
 #include <gamut/plugin.h>
 
+#include "base/error.h"
 #include "descriptor/descriptor.h"
-#include "error/error.h"
 #include "unit/unit.h"
 
 struct registry;

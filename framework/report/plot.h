@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "error/error.h"
+#include "base/error.h"
 #include "store/result.h"
 
 /* A set of pictures in the making. */

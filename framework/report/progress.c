@@ -4,9 +4,9 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
+#include "base/clock.h"
 #include "report/readable.h"
 
 struct progress {
@@ -17,19 +17,13 @@ struct progress {
   int tenth;           /* the last one printed */
 };
 
-static double now(void)
-{
-  struct timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
-
 struct progress *progress_new(FILE *file, double end, const char *axis_unit)
 {
   struct progress *p = calloc(1, sizeof *p);
   if (!p)
     return NULL;
-  *p = (struct progress){.file = file, .end = end, .started = now(), .unit = axis_unit};
+  *p = (struct progress){
+      .file = file, .end = end, .started = clock_seconds(CLOCK_MONOTONIC), .unit = axis_unit};
   p->terminal = isatty(fileno(file)) == 1;
   return p;
 }
@@ -58,7 +52,7 @@ static void clock_text(double seconds, char *text, size_t size)
 static void write_line(struct progress *p, double done, double time, uint64_t step, double rate)
 {
   char at[48], end[48], left[32], speed[64] = "";
-  double elapsed = now() - p->started;
+  double elapsed = clock_seconds(CLOCK_MONOTONIC) - p->started;
   readable(p->end, p->unit, end, sizeof end);
   readable_like(time, p->end, p->unit, at, sizeof at);
   if (rate > 0) {
@@ -111,7 +105,7 @@ struct runs_progress *runs_progress_new(FILE *file)
   struct runs_progress *p = calloc(1, sizeof *p);
   if (!p)
     return NULL;
-  *p = (struct runs_progress){.file = file, .started = now()};
+  *p = (struct runs_progress){.file = file, .started = clock_seconds(CLOCK_MONOTONIC)};
   p->terminal = isatty(fileno(file)) == 1;
   return p;
 }
@@ -126,7 +120,7 @@ void runs_progress_free(struct runs_progress *p)
 static void write_runs(struct runs_progress *p, size_t done, size_t asked, size_t failed)
 {
   char left[32];
-  double elapsed = now() - p->started, made = (double)(done - p->from);
+  double elapsed = clock_seconds(CLOCK_MONOTONIC) - p->started, made = (double)(done - p->from);
   fprintf(p->file, "%3.0f %%  %zu of %zu runs done", 100.0 * (double)done / (double)asked, done,
           asked);
   if (failed)

@@ -1,4 +1,5 @@
 #include "report/readable.h"
+#include "base/array.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -31,7 +32,7 @@ double readable_unit(double size, const char *unit, char *name, size_t name_size
   snprintf(name, name_size, "%s", strcmp(unit, "1") == 0 ? "" : unit);
   if (!isfinite(size) || size == 0)
     return 1;
-  for (size_t i = 0; i < sizeof prefixables / sizeof prefixables[0]; ++i) {
+  for (size_t i = 0; i < ARRAY_SIZE(prefixables); ++i) {
     const struct prefixable *p = &prefixables[i];
     if (strcmp(p->unit, unit) != 0)
       continue;

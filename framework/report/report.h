@@ -5,7 +5,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "error/error.h"
+#include "base/error.h"
 
 /* Progress on a terminal: one line rewritten, with share, time, steps, rate (point-steps/s) and
  * ETA; elsewhere one line a tenth. */

@@ -1,7 +1,7 @@
 #include <math.h>
 #include <sys/resource.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "field/catalogue.h"
 #include "registry/guard.h"
 #include "run/run_private.h"
@@ -11,13 +11,6 @@ static const double progress_every = 0.1;
 
 /* More steps than a year of computing has. */
 static const double STEPS_MAX = 1e13;
-
-static double clock_now(clockid_t clock)
-{
-  struct timespec now;
-  clock_gettime(clock, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 static const char *solver_of(const struct gamut_run *run)
 {
@@ -140,10 +133,10 @@ static void tell_progress(const struct gamut_run *run, double since)
 static gamut_status advance_all(struct gamut_run *run)
 {
   gamut_status status = GAMUT_OK;
-  double begun = clock_now(CLOCK_MONOTONIC), reported = begun;
+  double begun = clock_seconds(CLOCK_MONOTONIC), reported = begun;
   for (bool more = true; more;) {
     TRY(advance_step(run, &more));
-    double now = clock_now(CLOCK_MONOTONIC);
+    double now = clock_seconds(CLOCK_MONOTONIC);
     if (now - reported > progress_every || !more) {
       reported = now;
       tell_progress(run, now - begun);
@@ -164,7 +157,7 @@ done:
 gamut_status run_march(struct gamut_run *run, struct trace *trace)
 {
   gamut_status status, written;
-  double wall = clock_now(CLOCK_MONOTONIC), cpu = clock_now(CLOCK_PROCESS_CPUTIME_ID);
+  double wall = clock_seconds(CLOCK_MONOTONIC), cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID);
   run->trace = trace;
   TRY(advance_start(run));
   if (!run->resumed)
@@ -172,8 +165,8 @@ gamut_status run_march(struct gamut_run *run, struct trace *trace)
   checkpoint_start(run);
   TRY(advance_all(run));
 done:
-  run->wall = clock_now(CLOCK_MONOTONIC) - wall;
-  run->cpu = clock_now(CLOCK_PROCESS_CPUTIME_ID) - cpu;
+  run->wall = clock_seconds(CLOCK_MONOTONIC) - wall;
+  run->cpu = clock_seconds(CLOCK_PROCESS_CPUTIME_ID) - cpu;
   /* The last state is worth most when something went wrong. */
   written = run->started ? frames_write(run) : GAMUT_OK;
   if (status == GAMUT_OK || status == GAMUT_STOPPED) {

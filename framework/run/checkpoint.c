@@ -2,8 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
+#include "base/array.h"
+#include "base/clock.h"
 #include "registry/guard.h"
 #include "run/restart.h"
 #include "store/checkpoint.h"
@@ -86,7 +87,7 @@ static gamut_status put_histories(const struct writing *w)
     TRY(put(w, restart_path(path, "quantities", h->quantity->name, "value"), CHECKPOINT_REAL,
             h->value, h->count));
     TRY(put(w, restart_path(path, "quantities", h->quantity->name, "last"), CHECKPOINT_REAL, last,
-            sizeof last / sizeof last[0]));
+            ARRAY_SIZE(last)));
   }
 done:
   return status;
@@ -204,13 +205,6 @@ bool run_can_stop(const struct gamut_run *run)
   return run->solver->save && run->solver->restore;
 }
 
-static double wall_now(void)
-{
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 gamut_status checkpoint_write(struct gamut_run *run)
 {
   gamut_status status;
@@ -230,7 +224,7 @@ gamut_status checkpoint_write(struct gamut_run *run)
                 run->solver->save));
   status = checkpoint_end(w.file, trace);
   w.file = NULL;
-  run->checkpoint_wall = wall_now();
+  run->checkpoint_wall = clock_seconds(CLOCK_MONOTONIC);
 done:
   checkpoint_close(w.file);
   return status;
@@ -238,7 +232,7 @@ done:
 
 void checkpoint_start(struct gamut_run *run)
 {
-  run->checkpoint_wall = wall_now();
+  run->checkpoint_wall = clock_seconds(CLOCK_MONOTONIC);
   run->checkpoint = 0;
   due_by_now(run, run->scene->checkpoint_every, &run->checkpoint);
 }
@@ -246,7 +240,7 @@ void checkpoint_start(struct gamut_run *run)
 gamut_status checkpoint_due(struct gamut_run *run)
 {
   double every = run->scene->checkpoint_every, wall = run->scene->checkpoint_wall;
-  bool due = wall > 0.0 && wall_now() - run->checkpoint_wall >= wall;
+  bool due = wall > 0.0 && clock_seconds(CLOCK_MONOTONIC) - run->checkpoint_wall >= wall;
   if (!run->store || !run_can_stop(run))
     return GAMUT_OK;
   due |= due_by_now(run, every, &run->checkpoint);

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "run/restart.h"
 
 const char *restart_path(char path[RESTART_PATH], const char *group, const char *name,

@@ -1,6 +1,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/array.h"
 #include "run/run_private.h"
 
 /* "position 0.001 0.002 0 m, velocity ..., temperature 298 K": the state that the point had. */
@@ -10,7 +11,7 @@ static void describe_state(const struct gamut_run *run, const struct point_set *
   static const char *const shown[] = {"position",       "velocity", "volume_ratio", "stress",
                                       "plastic_strain", "energy",   "temperature"};
   *text = '\0';
-  for (size_t f = 0; f < sizeof shown / sizeof shown[0]; f++) {
+  for (size_t f = 0; f < ARRAY_SIZE(shown); f++) {
     const struct field *field = fields_find(run->fields, shown[f]);
     if (!field || !field->stored)
       continue;
@@ -60,7 +61,7 @@ static void describe_parameters(const struct gamut_run *run, const struct point_
   const struct material *material = &run->scene->material[set->material];
   const struct instance *part[] = {&material->elasticity, &material->strength, &material->eos};
   snprintf(text, size, "; density %.6g kg/m3", material->density);
-  for (size_t p = 0; p < sizeof part / sizeof part[0]; p++) {
+  for (size_t p = 0; p < ARRAY_SIZE(part); p++) {
     const struct values *values = part[p]->descriptor ? part[p]->values : NULL;
     bool any = false;
     for (size_t i = 0; values && i < values->count; i++) {

@@ -1,19 +1,12 @@
 /* What is known of a run before it is made. */
 #include <stdlib.h>
-#include <time.h>
 
+#include "base/clock.h"
 #include "run/run_private.h"
 
 /* Scenes beyond are not started for a check, which stays cheap. */
 static const size_t start_most = (size_t)256 << 20;
 static const double long_run = 3600.0;
-
-static double now(void)
-{
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 bool forecast_steps(struct gamut_run *run, struct forecast *f)
 {
@@ -23,7 +16,7 @@ bool forecast_steps(struct gamut_run *run, struct forecast *f)
     return false;
   if (run->solver->describe)
     run->solver->describe(run->solver_self, &f->step, f->limit, sizeof f->limit);
-  double begun = now();
+  double begun = clock_seconds(CLOCK_MONOTONIC);
   int taken = 0;
   while (more && taken < TRIAL_STEPS) {
     if (advance_step(run, &more) != GAMUT_OK)
@@ -33,7 +26,7 @@ bool forecast_steps(struct gamut_run *run, struct forecast *f)
   if (!(f->step > 0.0))
     f->step = run->step;
   f->steps = f->step > 0.0 && run->end > 0.0 ? run->end / f->step : 0.0;
-  f->seconds = taken ? f->steps * (now() - begun) / taken : 0.0;
+  f->seconds = taken ? f->steps * (clock_seconds(CLOCK_MONOTONIC) - begun) / taken : 0.0;
   return true;
 }
 

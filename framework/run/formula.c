@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "field/catalogue.h"
 #include "run/run_private.h"
 

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "run/run_private.h"
 
 /* Growth of stored energy beyond what was supplied that no rounding explains. */

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-#include "error/error.h"
+#include "base/error.h"
 #include "field/field.h"
 #include "quantity/quantity.h"
 #include "registry/registry.h"

@@ -83,7 +83,7 @@ struct frame_column {
 };
 
 struct gamut_run {
-  struct gamut_run_head head; /* first, see <gamut/run.h> */
+  struct gamut_run_head head; /* first, see <gamut/host.h> */
   struct scene *scene;
   struct registry *registry;
   struct run_options options;

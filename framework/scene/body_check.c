@@ -5,9 +5,9 @@
 
 #include "scene/scene_private.h"
 
-static unsigned axes_of(const struct reading *reading)
+static unsigned axes_of(const struct scene_reader *reader)
 {
-  return reading->axes ? reading->axes : 3;
+  return reader->axes ? reader->axes : 3;
 }
 
 struct extent {
@@ -16,10 +16,10 @@ struct extent {
 
 /* Common part of the bounds of two bodies; false where there is none. Bodies that touch share none:
  * round-off of their places is allowed for. */
-static bool common_bounds(const struct reading *reading, const struct extent *one,
+static bool common_bounds(const struct scene_reader *reader, const struct extent *one,
                           const struct extent *two, double lower[3], double upper[3])
 {
-  for (unsigned k = 0; k < axes_of(reading); k++) {
+  for (unsigned k = 0; k < axes_of(reader); k++) {
     double scale = fmin(one->upper[k] - one->lower[k], two->upper[k] - two->lower[k]);
     lower[k] = fmax(one->lower[k], two->lower[k]);
     upper[k] = fmin(one->upper[k], two->upper[k]);
@@ -42,12 +42,12 @@ static bool points_overlap(const struct shape *points, const struct shape *other
 }
 
 /* Boxes overlap where their bounds do. Other shapes are tried on a lattice of up to 10^5 points. */
-static bool overlap(const struct reading *reading, const struct gamut_body *one,
+static bool overlap(const struct scene_reader *reader, const struct gamut_body *one,
                     const struct gamut_body *two, double lower[3], double upper[3], double where[3])
 {
   double step[3] = {0};
   static const size_t fineness[] = {0, 20000, 250, 44};
-  unsigned axes = axes_of(reading);
+  unsigned axes = axes_of(reader);
   size_t points = 1, n = fineness[axes];
   bool boxes = one->shape.kind == SHAPE_BOX && two->shape.kind == SHAPE_BOX;
   double margin = INFINITY;
@@ -85,35 +85,36 @@ static const struct tree *shape_node(const struct gamut_body *body)
   return tree_get(body->node, "shape");
 }
 
-static void overlaps_check(struct reading *reading)
+static void overlaps_check(struct scene_reader *reader)
 {
-  const struct scene *scene = reading->scene;
+  const struct scene *scene = reader->scene;
   struct extent *extent = scene_take(scene->bodies, sizeof *extent);
   for (size_t i = 0; i < scene->bodies; i++)
     if (scene->body[i].shape.kind != SHAPE_NONE)
-      shape_extent(reading, &scene->body[i].shape, extent[i].lower, extent[i].upper);
+      shape_extent(reader, &scene->body[i].shape, extent[i].lower, extent[i].upper);
   for (size_t i = 0; i < scene->bodies; i++)
     for (size_t k = i + 1; k < scene->bodies; k++) {
       const struct gamut_body *one = &scene->body[i], *two = &scene->body[k];
       double x[3], lower[3], upper[3];
       char where[128] = "";
       if (one->shape.kind == SHAPE_NONE || two->shape.kind == SHAPE_NONE ||
-          !common_bounds(reading, &extent[i], &extent[k], lower, upper) ||
-          !overlap(reading, one, two, lower, upper, x))
+          !common_bounds(reader, &extent[i], &extent[k], lower, upper) ||
+          !overlap(reader, one, two, lower, upper, x))
         continue;
       size_t length = 0;
-      for (unsigned c = 0; c < axes_of(reading); c++)
+      for (unsigned c = 0; c < axes_of(reader); c++)
         length +=
             (size_t)snprintf(where + length, sizeof where - length, "%s%.4g", c ? ", " : "", x[c]);
-      blame_key(reading, shape_node(two), "bodies may touch, not overlap",
-                "bodies '%s' and '%s' overlap, for example at (%s) m", one->name, two->name, where);
+      error_at_key(reader, shape_node(two), "bodies may touch, not overlap",
+                   "bodies '%s' and '%s' overlap, for example at (%s) m", one->name, two->name,
+                   where);
     }
   free(extent);
 }
 
-static void domain_check(struct reading *reading, const struct gamut_body *body)
+static void domain_check(struct scene_reader *reader, const struct gamut_body *body)
 {
-  const struct values *solver = reading->scene->solver.values;
+  const struct values *solver = reader->scene->solver.values;
   const struct value *domain = values_find(solver, "domain");
   const struct value *min = values_find(solver, "domain.min");
   const struct value *max = values_find(solver, "domain.max");
@@ -121,8 +122,8 @@ static void domain_check(struct reading *reading, const struct gamut_body *body)
   char expected[160];
   if (!domain || !domain->given || !min || !max)
     return;
-  shape_extent(reading, &body->shape, lower, upper);
-  for (unsigned k = 0; k < axes_of(reading); k++) {
+  shape_extent(reader, &body->shape, lower, upper);
+  for (unsigned k = 0; k < axes_of(reader); k++) {
     double from = k < min->numbers ? min->number[k] : -INFINITY;
     double to = k < max->numbers ? max->number[k] : INFINITY;
     double slack = 1e-9 * (upper[k] - lower[k]);
@@ -130,22 +131,22 @@ static void domain_check(struct reading *reading, const struct gamut_body *body)
       continue;
     snprintf(expected, sizeof expected, "solver.domain goes from %c = %.6g m to %.6g m", "xyz"[k],
              from, to);
-    blame_key(reading, shape_node(body), expected,
-              "body '%s' is outside the domain: it goes from %c = %.6g m to %.6g m", body->name,
-              "xyz"[k], lower[k], upper[k]);
+    error_at_key(reader, shape_node(body), expected,
+                 "body '%s' is outside the domain: it goes from %c = %.6g m to %.6g m", body->name,
+                 "xyz"[k], lower[k], upper[k]);
   }
 }
 
-static void cell_check(struct reading *reading, const struct gamut_body *body)
+static void cell_check(struct scene_reader *reader, const struct gamut_body *body)
 {
-  const struct value *cell = values_find(reading->scene->solver.values, "cell");
+  const struct value *cell = values_find(reader->scene->solver.values, "cell");
   double lower[3], upper[3], smallest = INFINITY;
   char axis = 'x', expected[160];
   if (!cell || !cell->present || cell->parameter->type != VALUE_REAL ||
-      !unit_alike(reading->units, cell->parameter->unit, "m"))
+      !unit_alike(reader->units, cell->parameter->unit, "m"))
     return;
-  shape_extent(reading, &body->shape, lower, upper);
-  for (unsigned k = 0; k < axes_of(reading); k++)
+  shape_extent(reader, &body->shape, lower, upper);
+  for (unsigned k = 0; k < axes_of(reader); k++)
     if (upper[k] - lower[k] < smallest) {
       smallest = upper[k] - lower[k];
       axis = "xyz"[k];
@@ -153,19 +154,19 @@ static void cell_check(struct reading *reading, const struct gamut_body *body)
   if (!(cell->real > smallest))
     return;
   snprintf(expected, sizeof expected, "at most %.6g m, better a tenth of it", smallest);
-  blame_value(reading, cell->node, expected,
-              "cell = %.6g m is larger than body '%s', which has %.6g m along %c", cell->real,
-              body->name, smallest, axis);
+  error_at_value(reader, cell->node, expected,
+                 "cell = %.6g m is larger than body '%s', which has %.6g m along %c", cell->real,
+                 body->name, smallest, axis);
 }
 
-void bodies_check(struct reading *reading)
+void bodies_check(struct scene_reader *reader)
 {
-  const struct scene *scene = reading->scene;
+  const struct scene *scene = reader->scene;
   for (size_t i = 0; i < scene->bodies; i++) {
     if (scene->body[i].shape.kind == SHAPE_NONE)
       continue;
-    domain_check(reading, &scene->body[i]);
-    cell_check(reading, &scene->body[i]);
+    domain_check(reader, &scene->body[i]);
+    cell_check(reader, &scene->body[i]);
   }
-  overlaps_check(reading);
+  overlaps_check(reader);
 }

@@ -78,10 +78,10 @@ static const struct {
 
 const char *foreign_name(const char *key)
 {
-  for (size_t i = 0; i < COUNT_OF(foreign); i++)
+  for (size_t i = 0; i < ARRAY_SIZE(foreign); i++)
     if (strcmp(foreign[i].name, key) == 0)
       return foreign[i].instead;
-  for (size_t i = 0; i < COUNT_OF(foreign); i++)
+  for (size_t i = 0; i < ARRAY_SIZE(foreign); i++)
     if (strlen(key) > 2 && strcasecmp(foreign[i].name, key) == 0)
       return foreign[i].instead;
   return NULL;

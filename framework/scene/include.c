@@ -123,41 +123,41 @@ static const char *chain_text(const struct chain *chain, const char *last, char 
   return buffer;
 }
 
-static bool file_read(struct reading *, const char *file, const struct tree *item, struct chain *,
-                      struct tree **);
+static bool file_read(struct scene_reader *, const char *file, const struct tree *item,
+                      struct chain *, struct tree **);
 
-static bool item_read(struct reading *reading, const struct tree *item, struct chain *chain,
+static bool item_read(struct scene_reader *reader, const struct tree *item, struct chain *chain,
                       struct tree **root)
 {
   char path[2 * PATH_MAX], words[WORDS_SIZE];
-  const char *text = text_read(reading, item, "include");
+  const char *text = text_read(reader, item, "include");
   if (!text)
     return false;
   if (!locate(chain->shown[chain->depth - 1], text, path, sizeof path)) {
-    blame_value(reading, item,
-                "a path from this file's folder, or from a folder 'inputs' above it or of gamut",
-                "included file '%s' is not found (%s)", text,
-                chain_text(chain, text, words, sizeof words));
+    error_at_value(reader, item,
+                   "a path from this file's folder, or from a folder 'inputs' above it or of gamut",
+                   "included file '%s' is not found (%s)", text,
+                   chain_text(chain, text, words, sizeof words));
     return false;
   }
-  return file_read(reading, path, item, chain, root);
+  return file_read(reader, path, item, chain, root);
 }
 
-static bool version_check(struct reading *reading, const struct tree *root)
+static bool version_check(struct scene_reader *reader, const struct tree *root)
 {
   const struct tree *version = tree_get(root, "gamut");
   if (!version)
-    blame_missing(reading, root, "gamut", "the first line of a scene or card is 'gamut: 1'",
-                  "'gamut' is missing");
+    error_at_missing(reader, root, "gamut", "the first line of a scene or card is 'gamut: 1'",
+                     "'gamut' is missing");
   else if (version->kind != TREE_SCALAR || strcmp(version->text, "1") != 0)
-    blame_value(reading, version, "gamut: 1", "this gamut reads scenes of format 1");
+    error_at_value(reader, version, "gamut: 1", "this gamut reads scenes of format 1");
   else
     return true;
   return false;
 }
 
 /* Puts what the file includes below it: later ones win over earlier ones, the file over all. */
-static bool includes_read(struct reading *reading, struct chain *chain, struct tree **root)
+static bool includes_read(struct scene_reader *reader, struct chain *chain, struct tree **root)
 {
   const struct tree *include = tree_get(*root, "include");
   struct tree *base = NULL, *one;
@@ -167,7 +167,7 @@ static bool includes_read(struct reading *reading, struct chain *chain, struct t
   size_t items = include->kind == TREE_SEQUENCE ? include->children : 1;
   for (size_t i = 0; i < items; i++) {
     one = NULL;
-    if (!item_read(reading, include->kind == TREE_SEQUENCE ? include->child[i] : include, chain,
+    if (!item_read(reader, include->kind == TREE_SEQUENCE ? include->child[i] : include, chain,
                    &one)) {
       tree_free(one);
       fine = false;
@@ -188,7 +188,7 @@ static bool includes_read(struct reading *reading, struct chain *chain, struct t
 }
 
 /* Whether the file is being read already; `item` is the line that asks for it again. */
-static bool is_circular(struct reading *reading, const char *file, const char *real,
+static bool is_circular(struct scene_reader *reader, const char *file, const char *real,
                         const struct tree *item, const struct chain *chain)
 {
   char words[WORDS_SIZE];
@@ -196,52 +196,53 @@ static bool is_circular(struct reading *reading, const char *file, const char *r
   for (size_t i = 0; i < chain->depth && real; i++)
     again = again || (chain->real[i] && strcmp(chain->real[i], real) == 0);
   if (again)
-    blame_value(reading, item, "a file that does not lead back to itself", "circular include: %s",
-                chain_text(chain, file, words, sizeof words));
+    error_at_value(reader, item, "a file that does not lead back to itself", "circular include: %s",
+                   chain_text(chain, file, words, sizeof words));
   else if (chain->depth == INCLUDE_DEPTH_MAX)
-    blame_value(reading, item, NULL, "includes are nested deeper than %d", INCLUDE_DEPTH_MAX);
+    error_at_value(reader, item, NULL, "includes are nested deeper than %d", INCLUDE_DEPTH_MAX);
   return again || chain->depth == INCLUDE_DEPTH_MAX;
 }
 
 /* Files that each include the next several times are many, and deep in no way. */
-static bool is_one_too_many(struct reading *reading, const struct tree *item, struct chain *chain)
+static bool is_one_too_many(struct scene_reader *reader, const struct tree *item,
+                            struct chain *chain)
 {
   if (chain->files > INCLUDES_MAX)
     return true; /* reported once */
   if (chain->files++ < INCLUDES_MAX)
     return false;
-  blame_value(reading, item, "do files include each other several times?",
-              "more than %d files are read for one scene", INCLUDES_MAX);
+  error_at_value(reader, item, "do files include each other several times?",
+                 "more than %d files are read for one scene", INCLUDES_MAX);
   return true;
 }
 
-static bool file_read(struct reading *reading, const char *file, const struct tree *item,
+static bool file_read(struct scene_reader *reader, const char *file, const struct tree *item,
                       struct chain *chain, struct tree **root)
 {
   *root = NULL;
   char *real = realpath(file, NULL);
-  if (is_one_too_many(reading, item, chain) || is_circular(reading, file, real, item, chain)) {
+  if (is_one_too_many(reader, item, chain) || is_circular(reader, file, real, item, chain)) {
     free(real);
     return false;
   }
-  gamut_status status = tree_read(file, GAMUT_SCENE, reading->trace, root);
+  gamut_status status = tree_read(file, GAMUT_SCENE, reader->trace, root);
   if (status != GAMUT_OK) {
-    reading->faults++;
-    reading->first = reading->first ? reading->first : status;
+    reader->faults++;
+    reader->first = reader->first ? reader->first : status;
     free(real);
     return false;
   }
   chain->values += node_count(*root);
   if (chain->values > TREE_NODES_MAX) {
-    blame_value(reading, item ? item : *root, NULL, "more than %d values, with all includes read",
-                TREE_NODES_MAX);
+    error_at_value(reader, item ? item : *root, NULL, "more than %d values, with all includes read",
+                   TREE_NODES_MAX);
     free(real);
     return false;
   }
   chain->shown[chain->depth] = file;
   chain->real[chain->depth++] = real;
-  bool fine = expect_mapping(reading, *root, "the file") && version_check(reading, *root);
-  fine = includes_read(reading, chain, root) && fine;
+  bool fine = expect_mapping(reader, *root, "the file") && version_check(reader, *root);
+  fine = includes_read(reader, chain, root) && fine;
   free(chain->real[--chain->depth]);
   return fine || (*root)->kind == TREE_MAPPING;
 }
@@ -268,7 +269,7 @@ static void stand_for_option(struct tree *tree)
     stand_for_option(tree->child[i]);
 }
 
-static void override_put(struct reading *reading, struct tree *root,
+static void override_put(struct scene_reader *reader, struct tree *root,
                          const struct scene_override *override)
 {
   char name[PATH_SIZE + 128], parent[PATH_SIZE];
@@ -277,15 +278,15 @@ static void override_put(struct reading *reading, struct tree *root,
   snprintf(name, sizeof name, "--set %s=%.100s", override->path,
            override->node ? "" : override->value);
   if (!override->node)
-    status = tree_parse(override->value, strlen(override->value), name, GAMUT_SCENE, reading->trace,
+    status = tree_parse(override->value, strlen(override->value), name, GAMUT_SCENE, reader->trace,
                         &value);
   else if (!(value = tree_copy(override->node)))
-    status = trace_fail(reading->trace, GAMUT_INTERNAL, "out of memory");
+    status = trace_fail(reader->trace, GAMUT_INTERNAL, "out of memory");
   if (status == GAMUT_OK && !override->node)
     stand_for_option(value);
   if (status == GAMUT_OK && belongs_to_file(override->path))
     status =
-        trace_fail_at(reading->trace, GAMUT_USAGE, &value->place, override->path,
+        trace_fail_at(reader->trace, GAMUT_USAGE, &value->place, override->path,
                       "write it in a scene of its own", "'%s' belongs to a file", override->path);
   if (status == GAMUT_OK && sets_model(override)) {
     snprintf(parent, sizeof parent, "%.*s", (int)strlen(override->path) - 6, override->path);
@@ -295,34 +296,34 @@ static void override_put(struct reading *reading, struct tree *root,
       tree_clear(node);
   }
   if (status == GAMUT_OK)
-    status = tree_put(root, override->path, value, reading->trace);
+    status = tree_put(root, override->path, value, reader->trace);
   else
     tree_free(value);
   if (status != GAMUT_OK) {
-    reading->faults++;
-    reading->first = reading->first ? reading->first : status;
+    reader->faults++;
+    reader->first = reader->first ? reader->first : status;
   }
 }
 
 /* Models first: choosing one drops the parameters of another, not those that are set with it. */
-void overrides_put(struct reading *reading, struct tree *root,
+void overrides_put(struct scene_reader *reader, struct tree *root,
                    const struct scene_override *override, size_t overrides)
 {
   for (int pass = 0; pass < 2; pass++)
     for (size_t i = 0; i < overrides; i++)
       if (sets_model(&override[i]) == (pass == 0))
-        override_put(reading, root, &override[i]);
+        override_put(reader, root, &override[i]);
 }
 
-struct tree *include_read(struct reading *reading, const char *file,
+struct tree *include_read(struct scene_reader *reader, const char *file,
                           const struct scene_override *override, size_t overrides)
 {
   struct chain chain = {.depth = 0};
   struct tree *root;
-  if (!file_read(reading, file, NULL, &chain, &root) || root->kind != TREE_MAPPING) {
+  if (!file_read(reader, file, NULL, &chain, &root) || root->kind != TREE_MAPPING) {
     tree_free(root);
     return NULL;
   }
-  overrides_put(reading, root, override, overrides);
+  overrides_put(reader, root, override, overrides);
   return root;
 }

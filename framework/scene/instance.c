@@ -14,7 +14,7 @@ const char *standard_model(enum gamut_kind kind)
   return kind == GAMUT_KIND_ELASTICITY ? "hypoelastic" : NULL;
 }
 
-const struct descriptor *instance_peek(const struct reading *reading, enum gamut_kind kind,
+const struct descriptor *instance_peek(const struct scene_reader *reader, enum gamut_kind kind,
                                        const struct tree *node)
 {
   char id[160];
@@ -23,21 +23,21 @@ const struct descriptor *instance_peek(const struct reading *reading, enum gamut
   if ((model && model->kind != TREE_SCALAR) || !name)
     return NULL;
   snprintf(id, sizeof id, "%s/%.120s", kind_name(kind), name);
-  return registry_find(reading->registry, id);
+  return registry_find(reader->registry, id);
 }
 
-static void blame_model(struct reading *reading, enum gamut_kind kind, const struct tree *node,
-                        const char *what)
+static void error_at_model(struct scene_reader *reader, enum gamut_kind kind,
+                           const struct tree *node, const char *what)
 {
   char expected[WORDS_SIZE] = "", list[WORDS_SIZE - 64];
-  size_t count = 0, all = registry_count(reading->registry);
+  size_t count = 0, all = registry_count(reader->registry);
   const char **name = scene_take(all, sizeof *name);
   for (size_t i = 0; i < all; i++) {
-    const struct descriptor *descriptor = registry_at(reading->registry, i);
+    const struct descriptor *descriptor = registry_at(reader->registry, i);
     if (descriptor->kind == kind)
       name[count++] = descriptor->name;
   }
-  if (was_meant(reading, node, "model")) {
+  if (is_typo_of(reader, node, "model")) {
     free(name);
     return;
   }
@@ -45,7 +45,7 @@ static void blame_model(struct reading *reading, enum gamut_kind kind, const str
   char path[PATH_SIZE - 16], model[PATH_SIZE];
   tree_path(node, path, sizeof path);
   snprintf(model, sizeof model, "%s.model", path);
-  blame_missing(reading, node, model, expected, "'model' is missing in '%s'", what);
+  error_at_missing(reader, node, model, expected, "'model' is missing in '%s'", what);
   free(name);
 }
 
@@ -57,43 +57,43 @@ static bool seen_by_kernels(const struct descriptor *descriptor)
          (descriptor->kind == GAMUT_KIND_EFFECT && descriptor->tasks > 0);
 }
 
-bool plugin_read(struct reading *reading, enum gamut_kind kind, const struct tree *node,
+bool plugin_read(struct scene_reader *reader, enum gamut_kind kind, const struct tree *node,
                  struct value *value)
 {
   struct instance instance;
-  size_t faults = reading->faults;
-  if (!reading->registry) {
-    blame_value(reading, node, "give it in a scene", "no plugin can be named here");
+  size_t faults = reader->faults;
+  if (!reader->registry) {
+    error_at_value(reader, node, "give it in a scene", "no plugin can be named here");
     return false;
   }
-  instance_read(reading, kind, kind_name(kind), node, NULL, 0, &instance);
+  instance_read(reader, kind, kind_name(kind), node, NULL, 0, &instance);
   value->model = instance.descriptor;
   value->group = instance.values;
-  return reading->faults == faults;
+  return reader->faults == faults;
 }
 
-void instance_read(struct reading *reading, enum gamut_kind kind, const char *name,
+void instance_read(struct scene_reader *reader, enum gamut_kind kind, const char *name,
                    const struct tree *node, const char *const *also, size_t others,
                    struct instance *instance)
 {
   char path[PATH_SIZE], what[160];
-  const struct tree *model = model_node(node), *here = reading->here;
+  const struct tree *model = model_node(node), *here = reader->here;
   const char *text = model ? model->text : standard_model(kind);
   *instance = (struct instance){.name = name, .node = node};
   if (node->kind == TREE_SEQUENCE) {
-    expect_mapping(reading, node, name);
+    expect_mapping(reader, node, name);
     return;
   }
   if (!text || text[0] == 0 || (model && model->kind != TREE_SCALAR)) {
-    blame_model(reading, kind, node, name);
+    error_at_model(reader, kind, node, name);
     return;
   }
   tree_path(model ? model : node, path, sizeof path);
   const struct descriptor *descriptor = registry_expect(
-      reading->registry, kind, text, model ? &model->place : &node->place, path, reading->trace);
+      reader->registry, kind, text, model ? &model->place : &node->place, path, reader->trace);
   if (!descriptor) {
-    reading->faults++;
-    reading->first = reading->first ? reading->first : GAMUT_SCENE;
+    reader->faults++;
+    reader->first = reader->first ? reader->first : GAMUT_SCENE;
     return;
   }
   instance->descriptor = descriptor;
@@ -103,7 +103,7 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
     known[i + 1] = also[i];
   snprintf(what, sizeof what, "%s '%s'", kind_name(kind), descriptor->name);
   tree_path(node, path, sizeof path);
-  reading->here = node;
+  reader->here = node;
   struct section section = {descriptor,
                             descriptor->parameter,
                             descriptor->parameters,
@@ -115,15 +115,15 @@ void instance_read(struct reading *reading, enum gamut_kind kind, const char *na
                             false,
                             seen_by_kernels(descriptor),
                             false};
-  instance->values = section_read(reading, &section);
-  reading->here = here;
+  instance->values = section_read(reader, &section);
+  reader->here = here;
   free(known);
 }
 
 /* The geometry counts the components of the solver's own vectors, so it is looked up before. */
-static void geometry_peek(struct reading *reading, const struct tree *node)
+static void geometry_peek(struct scene_reader *reader, const struct tree *node)
 {
-  const struct descriptor *descriptor = instance_peek(reading, GAMUT_KIND_SOLVER, node);
+  const struct descriptor *descriptor = instance_peek(reader, GAMUT_KIND_SOLVER, node);
   const struct parameter *parameter =
       descriptor ? parameter_named(descriptor->parameter, descriptor->parameters, "geometry")
                  : NULL;
@@ -137,8 +137,8 @@ static void geometry_peek(struct reading *reading, const struct tree *node)
   const struct geometry *geometry = geometry_named(given->text);
   if (!geometry) /* a descriptor that offers it was refused */
     return;
-  reading->axes = geometry->axes;
-  reading->axisymmetric = geometry->axisymmetric;
+  reader->axes = geometry->axes;
+  reader->axisymmetric = geometry->axisymmetric;
 }
 
 bool is_card(const struct tree *root)
@@ -146,7 +146,7 @@ bool is_card(const struct tree *root)
   static const char *const more[] = {"solver",     "bodies",  "effects",
                                      "quantities", "outputs", "uncertainty"};
   bool card = tree_get(root, "materials") != NULL;
-  for (size_t i = 0; i < COUNT_OF(more); i++)
+  for (size_t i = 0; i < ARRAY_SIZE(more); i++)
     card = card && !tree_get(root, more[i]);
   return card;
 }
@@ -154,31 +154,32 @@ bool is_card(const struct tree *root)
 /* A machine that takes a million steps a second needs ten days for them. */
 static const double steps_most = 1e12;
 
-void solver_read(struct reading *reading, const struct tree *root)
+void solver_read(struct scene_reader *reader, const struct tree *root)
 {
   const struct tree *node = tree_get(root, "solver");
-  struct scene *scene = reading->scene;
+  struct scene *scene = reader->scene;
   if (!node) {
-    reading->lost = true;
-    if (!is_card(root) && !was_meant(reading, root, "solver"))
-      blame_missing(reading, root, "solver", "solver: {model: NAME, ...}", "'solver' is missing");
+    reader->geometry_unknown = true;
+    if (!is_card(root) && !is_typo_of(reader, root, "solver"))
+      error_at_missing(reader, root, "solver", "solver: {model: NAME, ...}", "'solver' is missing");
     return;
   }
-  geometry_peek(reading, node);
-  instance_read(reading, GAMUT_KIND_SOLVER, "solver", node, NULL, 0, &scene->solver);
+  geometry_peek(reader, node);
+  instance_read(reader, GAMUT_KIND_SOLVER, "solver", node, NULL, 0, &scene->solver);
   const struct descriptor *solver = scene->solver.descriptor;
-  reading->lost = !solver || (reading->axes == 0 && descriptor_parameter(solver, "geometry") >= 0);
+  reader->geometry_unknown =
+      !solver || (reader->axes == 0 && descriptor_parameter(solver, "geometry") >= 0);
   const struct value *end = values_find(scene->solver.values, "end");
   if (end && end->present && end->parameter->type == VALUE_REAL && !(end->real > 0))
-    blame_value(reading, end->node, "greater than 0", "the run ends before it begins");
+    error_at_value(reader, end->node, "greater than 0", "the run ends before it begins");
   const struct value *step = values_find(scene->solver.values, "step");
   if (step && step->given && step->present && step->parameter->type == VALUE_REAL &&
-      axis_length(reading) > 0)
-    count_within(reading, step->node, "steps", end->real, step->real, steps_most);
+      axis_length(reader) > 0)
+    count_within(reader, step->node, "steps", end->real, step->real, steps_most);
 }
 
-const char *axis_unit(const struct reading *reading)
+const char *axis_unit(const struct scene_reader *reader)
 {
-  const struct descriptor *solver = reading->scene->solver.descriptor;
+  const struct descriptor *solver = reader->scene->solver.descriptor;
   return solver && solver->axis_unit ? solver->axis_unit : "s";
 }

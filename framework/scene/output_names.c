@@ -10,7 +10,7 @@ struct search {
   const char *wanted; /* null: collect all names */
   bool component;
   const char *unit; /* found */
-  struct reading *reading;
+  struct scene_reader *reader;
   const char **name;
   size_t names, capacity;
 };
@@ -42,7 +42,7 @@ static void visit(struct search *search, const char *field, unsigned components,
     char name[160];
     snprintf(name, sizeof name, "%.100s_%s", field, component_name(components, k));
     if (!search->wanted)
-      collect(search, scene_text(search->reading, "%s", name));
+      collect(search, scene_text(search->reader, "%s", name));
     else if (strcmp(search->wanted, name) == 0)
       search->unit = unit;
   }
@@ -71,7 +71,7 @@ static void visit_parameters(struct search *search, const struct values *values,
     if (!pointwise_varies(points, i))
       continue;
     snprintf(path, sizeof path, "%s.%s", values->path, values->parameter[i].name);
-    visit(search, search->wanted ? path : scene_text(search->reading, "%s", path), 1,
+    visit(search, search->wanted ? path : scene_text(search->reader, "%s", path), 1,
           values->parameter[i].unit);
   }
   pointwise_free(points);
@@ -100,17 +100,17 @@ static void visit_all(struct search *search, const struct scene *scene)
   visit_plugin(search, scene->solver.descriptor);
 }
 
-const char *field_unit(const struct reading *reading, const char *name, bool component)
+const char *field_unit(const struct scene_reader *reader, const char *name, bool component)
 {
   struct search search = {.wanted = name, .component = component};
-  visit_all(&search, reading->scene);
+  visit_all(&search, reader->scene);
   return search.unit;
 }
 
-const char **field_names(struct reading *reading, bool component, size_t *count)
+const char **field_names(struct scene_reader *reader, bool component, size_t *count)
 {
-  struct search search = {.component = component, .reading = reading};
-  visit_all(&search, reading->scene);
+  struct search search = {.component = component, .reader = reader};
+  visit_all(&search, reader->scene);
   *count = search.names;
   return search.name;
 }

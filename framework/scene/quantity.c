@@ -41,16 +41,16 @@ static const struct measure *measure_named(const struct descriptor *descriptor, 
   return NULL;
 }
 
-static void blame_measure(struct reading *reading, const struct tree *node,
-                          const struct provider *list, size_t count, bool fields)
+static void error_at_measure(struct scene_reader *reader, const struct tree *node,
+                             const struct provider *list, size_t count, bool fields)
 {
   char expected[WORDS_SIZE];
   size_t names = 0, known_fields = 0;
-  if (trace_is_full(reading->trace)) {
-    blame_value(reading, node, NULL, "unknown measure '%.60s'", node->text);
+  if (trace_is_full(reader->trace)) {
+    error_at_value(reader, node, NULL, "unknown measure '%.60s'", node->text);
     return;
   }
-  const char **field = fields ? field_names(reading, true, &known_fields) : NULL;
+  const char **field = fields ? field_names(reader, true, &known_fields) : NULL;
   size_t all = known_fields;
   for (size_t i = 0; i < count; i++)
     all += list[i].descriptor->measures;
@@ -63,48 +63,48 @@ static void blame_measure(struct reading *reading, const struct tree *node,
     if (!has_name(name, names, field[i]))
       name[names++] = field[i];
   const char *now = renamed_field(node->text);
-  blame_value(reading, node,
-              now ? renamed_words(node->text, now, expected, sizeof expected)
-                  : suggest(reading, node->text, name, names, expected, sizeof expected),
-              "unknown measure '%.60s'", node->text);
+  error_at_value(reader, node,
+                 now ? renamed_words(node->text, now, expected, sizeof expected)
+                     : suggest(reader, node->text, name, names, expected, sizeof expected),
+                 "unknown measure '%.60s'", node->text);
   free(name);
   free(field);
 }
 
 /* A field as a measure of its own: its formula is the field. */
-static bool plain_field(struct reading *reading, const char *name, struct quantity *quantity)
+static bool plain_field(struct scene_reader *reader, const char *name, struct quantity *quantity)
 {
-  const char *unit = field_unit(reading, name, true);
+  const char *unit = field_unit(reader, name, true);
   if (!unit)
     return false;
-  struct measure *measure = scene_keep(reading, 1, sizeof *measure);
+  struct measure *measure = scene_keep(reader, 1, sizeof *measure);
   *measure = (struct measure){.name = name, .unit = unit, .formula = name, .at = MEASURE_POINT};
   quantity->measure = measure;
   quantity->field = name;
   return true;
 }
 
-static bool effect_named(struct reading *reading, const struct tree *node, const char **effect)
+static bool effect_named(struct scene_reader *reader, const struct tree *node, const char **effect)
 {
-  const struct scene *scene = reading->scene;
+  const struct scene *scene = reader->scene;
   char expected[WORDS_SIZE];
   *effect = NULL;
   if (!node)
     return true;
-  const char *text = text_read(reading, node, "effect");
+  const char *text = text_read(reader, node, "effect");
   bool found = text && tree_number(scene->effects_node, text) < scene->effects;
   if (text && !found)
-    blame_value(reading, node,
-                suggest_key(reading, text, scene->effects_node, expected, sizeof expected),
-                "unknown effect '%.60s'", text);
+    error_at_value(reader, node,
+                   suggest_key(reader, text, scene->effects_node, expected, sizeof expected),
+                   "unknown effect '%.60s'", text);
   *effect = text;
   return found;
 }
 
-static bool measure_find(struct reading *reading, const struct tree *node, const char *effect,
+static bool measure_find(struct scene_reader *reader, const struct tree *node, const char *effect,
                          struct quantity *quantity)
 {
-  const struct scene *scene = reading->scene;
+  const struct scene *scene = reader->scene;
   struct provider *list = scene_take(1 + scene->materials + scene->effects, sizeof *list);
   size_t count = providers_of(scene, effect, list), found = 0, of_effects = 0;
   for (size_t i = 0; i < count; i++) {
@@ -119,12 +119,12 @@ static bool measure_find(struct reading *reading, const struct tree *node, const
     quantity->effect = list[i].effect;
   }
   if (quantity->effect && of_effects > 1) {
-    blame_value(reading, node, "'effect:' names the one that is meant",
-                "measure '%s' is offered by several effects", node->text);
+    error_at_value(reader, node, "'effect:' names the one that is meant",
+                   "measure '%s' is offered by several effects", node->text);
     quantity->measure = NULL;
-  } else if (!found && (effect || !plain_field(reading, node->text, quantity))) {
-    if (!reading->lost || effect)
-      blame_measure(reading, node, list, count, !effect);
+  } else if (!found && (effect || !plain_field(reader, node->text, quantity))) {
+    if (!reader->geometry_unknown || effect)
+      error_at_measure(reader, node, list, count, !effect);
   }
   free(list);
   return quantity->measure != NULL;
@@ -132,37 +132,38 @@ static bool measure_find(struct reading *reading, const struct tree *node, const
 
 static const double samples_most = 1e7;
 
-static void when_read(struct reading *reading, const struct tree *node, struct quantity *quantity)
+static void when_read(struct scene_reader *reader, const struct tree *node,
+                      struct quantity *quantity)
 {
   const struct tree *reduce = tree_get(node, "reduce"), *every = tree_get(node, "every");
   if (reduce)
-    reduction_read(reading, reduce, quantity->measure, &quantity->reduction);
-  if (!every || !amount_read(reading, every, "every", axis_unit(reading), &quantity->every))
+    reduction_read(reader, reduce, quantity->measure, &quantity->reduction);
+  if (!every || !amount_read(reader, every, "every", axis_unit(reader), &quantity->every))
     return;
   if (!(quantity->every > 0))
-    blame_value(reading, every, "greater than 0", "'every' is not positive");
+    error_at_value(reader, every, "greater than 0", "'every' is not positive");
   else
-    every_within(reading, every, "samples", quantity->every, samples_most);
+    every_within(reader, every, "samples", quantity->every, samples_most);
 }
 
-static void blame_old_field(struct reading *reading, const struct tree *named)
+static void error_at_old_field(struct scene_reader *reader, const struct tree *named)
 {
   char expected[WORDS_SIZE];
   const char *now = renamed_field(named->text);
   if (now)
-    blame_value(reading, named, renamed_words(named->text, now, expected, sizeof expected),
-                "unknown field '%.60s'", named->text);
+    error_at_value(reader, named, renamed_words(named->text, now, expected, sizeof expected),
+                   "unknown field '%.60s'", named->text);
 }
 
 /* The unit of the field, or of the measure of points, that an argument names. */
-static const char *unit_named(struct reading *reading, const struct tree *node,
+static const char *unit_named(struct scene_reader *reader, const struct tree *node,
                               const struct quantity *quantity, const char *argument)
 {
-  const struct scene *scene = reading->scene;
+  const struct scene *scene = reader->scene;
   const struct tree *named = argument ? tree_get(node, argument) : NULL;
   if (!named || named->kind != TREE_SCALAR)
     return NULL;
-  const char *unit = field_unit(reading, named->text, true);
+  const char *unit = field_unit(reader, named->text, true);
   struct provider *list = scene_take(1 + scene->materials + scene->effects, sizeof *list);
   size_t count = providers_of(scene, quantity->effect, list);
   for (size_t i = 0; i < count && !unit; i++) {
@@ -171,13 +172,13 @@ static const char *unit_named(struct reading *reading, const struct tree *node,
   }
   free(list);
   if (!unit)
-    blame_old_field(reading, named);
+    error_at_old_field(reader, named);
   return unit;
 }
 
 /* A measure of a field that the scene names has the field's unit, and so have its arguments. Of a
  * field that nobody has the unit is left open; it is refused when the run is planned. */
-static void units_of_field(struct reading *reading, const struct tree *node,
+static void units_of_field(struct scene_reader *reader, const struct tree *node,
                            struct quantity *quantity)
 {
   const struct measure *measure = quantity->measure;
@@ -186,28 +187,28 @@ static void units_of_field(struct reading *reading, const struct tree *node,
     any |= measure->argument[i].unit_of != NULL;
   if (!any)
     return;
-  struct measure *own = scene_keep(reading, 1, sizeof *own);
+  struct measure *own = scene_keep(reader, 1, sizeof *own);
   *own = *measure;
-  const char *unit = unit_named(reading, node, quantity, own->unit_of);
+  const char *unit = unit_named(reader, node, quantity, own->unit_of);
   own->unit = unit ? unit : own->unit;
-  own->argument = scene_keep(reading, own->arguments, sizeof *own->argument);
+  own->argument = scene_keep(reader, own->arguments, sizeof *own->argument);
   for (size_t i = 0; i < own->arguments; i++) {
     struct parameter *argument = &own->argument[i];
     *argument = measure->argument[i];
-    unit = unit_named(reading, node, quantity, argument->unit_of);
+    unit = unit_named(reader, node, quantity, argument->unit_of);
     argument->unit = unit ? unit : argument->unit;
   }
   quantity->measure = own;
 }
 
-static void quantity_read(struct reading *reading, const struct tree *node,
+static void quantity_read(struct scene_reader *reader, const struct tree *node,
                           struct quantity *quantity, struct places *places)
 {
   char path[PATH_SIZE], what[160];
   const char *effect;
   snprintf(what, sizeof what, "quantity '%s'", node->key);
-  expect_name(reading, node, "a quantity");
-  if (!expect_mapping(reading, node, what))
+  expect_name(reader, node, "a quantity");
+  if (!expect_mapping(reader, node, what))
     return;
   tree_path(node, path, sizeof path);
   const struct tree *measure = tree_get(node, "measure");
@@ -215,43 +216,43 @@ static void quantity_read(struct reading *reading, const struct tree *node,
     char missing[PATH_SIZE + 16];
     for (size_t i = 0; i < node->children; i++)
       if (nearest(node->child[i]->key, own_keys, 1))
-        blame_unknown(reading, node->child[i], NULL, 0, own_keys, COUNT_OF(own_keys), what);
-    if (was_meant(reading, node, "measure"))
+        error_at_unknown(reader, node->child[i], NULL, 0, own_keys, ARRAY_SIZE(own_keys), what);
+    if (is_typo_of(reader, node, "measure"))
       return;
     snprintf(missing, sizeof missing, "%s.measure", path);
-    blame_missing(reading, node, missing, "'gamut show' of the solver lists its measures",
-                  "'measure' is missing in %s", what);
+    error_at_missing(reader, node, missing, "'gamut show' of the solver lists its measures",
+                     "'measure' is missing in %s", what);
     return;
   }
-  if (!text_read(reading, measure, "measure") ||
-      !effect_named(reading, tree_get(node, "effect"), &effect) ||
-      !measure_find(reading, measure, effect, quantity))
+  if (!text_read(reader, measure, "measure") ||
+      !effect_named(reader, tree_get(node, "effect"), &effect) ||
+      !measure_find(reader, measure, effect, quantity))
     return;
-  units_of_field(reading, node, quantity);
+  units_of_field(reader, node, quantity);
   struct section section = {.parameter = quantity->measure->argument,
                             .count = quantity->measure->arguments,
                             .node = node,
                             .path = path,
                             .what = what,
                             .also = own_keys,
-                            .others = COUNT_OF(own_keys)};
-  quantity->arguments = section_read(reading, &section);
-  at_read(reading, node, quantity, places);
-  when_read(reading, node, quantity);
+                            .others = ARRAY_SIZE(own_keys)};
+  quantity->arguments = section_read(reader, &section);
+  at_read(reader, node, quantity, places);
+  when_read(reader, node, quantity);
 }
 
 /* One quantity for each of several points: NAME.01, NAME.02, ..., which no other has: a name with
  * a dot does not stand beside its first part. */
-static void put_tracers(struct reading *reading, const struct quantity *quantity,
+static void put_tracers(struct scene_reader *reader, const struct quantity *quantity,
                         const struct places *places)
 {
-  struct scene *scene = reading->scene;
+  struct scene *scene = reader->scene;
   const int digits = snprintf(NULL, 0, "%zu", places->count);
   for (size_t i = 0; i < places->count; i++) {
     struct quantity *one = &scene->quantity[scene->quantities++];
     *one = *quantity;
     one->family = quantity->name;
-    one->name = scene_text(reading, "%s.%0*zu", quantity->name, digits, i + 1);
+    one->name = scene_text(reader, "%s.%0*zu", quantity->name, digits, i + 1);
     one->arguments = i == 0 ? quantity->arguments : NULL; /* freed once; points need none */
     memcpy(one->point, &places->place[3 * i], sizeof one->point);
   }
@@ -269,20 +270,20 @@ static void room_for(struct scene *scene, size_t *room, size_t more)
   scene->quantity = grown;
 }
 
-void quantities_read(struct reading *reading, const struct tree *root)
+void quantities_read(struct scene_reader *reader, const struct tree *root)
 {
-  struct scene *scene = reading->scene;
+  struct scene *scene = reader->scene;
   const struct tree *node = tree_get(root, "quantities");
-  if (!node || !expect_mapping(reading, node, "'quantities'"))
+  if (!node || !expect_mapping(reader, node, "'quantities'"))
     return;
   size_t room = 0;
   for (size_t i = 0; i < node->children; i++) {
     struct places places = {0};
     struct quantity quantity = {.name = node->child[i]->key, .body = -1, .node = node->child[i]};
-    quantity_read(reading, node->child[i], &quantity, &places);
+    quantity_read(reader, node->child[i], &quantity, &places);
     room_for(scene, &room, places.count > 0 ? places.count : 1);
     if (places.count > 0)
-      put_tracers(reading, &quantity, &places);
+      put_tracers(reader, &quantity, &places);
     else
       scene->quantity[scene->quantities++] = quantity;
     free(places.place);

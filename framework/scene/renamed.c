@@ -17,7 +17,7 @@ static const struct {
 
 static const char *find(enum kind kind, const char *name)
 {
-  for (size_t i = 0; i < COUNT_OF(renamed); i++)
+  for (size_t i = 0; i < ARRAY_SIZE(renamed); i++)
     if (renamed[i].kind == kind && strcmp(renamed[i].old, name) == 0)
       return renamed[i].now;
   return NULL;

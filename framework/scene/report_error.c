@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "scene/scene_private.h"
 
 void *scene_take(size_t count, size_t size)
@@ -14,24 +14,24 @@ void *scene_take(size_t count, size_t size)
   return taken;
 }
 
-void *scene_keep(struct reading *reading, size_t count, size_t size)
+void *scene_keep(struct scene_reader *reader, size_t count, size_t size)
 {
   size_t head = (sizeof(struct scene_piece) + 15) / 16 * 16;
-  struct scene_store *store = (struct scene_store *)(void *)reading->scene;
+  struct scene_store *store = (struct scene_store *)(void *)reader->scene;
   struct scene_piece *piece = scene_take(1, head + count * size);
   piece->next = store->piece;
   store->piece = piece;
   return (char *)piece + head;
 }
 
-char *scene_text(struct reading *reading, const char *format, ...)
+char *scene_text(struct scene_reader *reader, const char *format, ...)
 {
   char words[WORDS_SIZE];
   va_list list;
   va_start(list, format);
   vsnprintf(words, sizeof words, format, list);
   va_end(list);
-  char *text = scene_keep(reading, strlen(words) + 1, 1);
+  char *text = scene_keep(reader, strlen(words) + 1, 1);
   return strcpy(text, words);
 }
 
@@ -44,13 +44,13 @@ bool has_name(const char *const *name, size_t count, const char *wanted)
 }
 
 /* Records a fault; `path` null: the node's own. */
-static void record(struct reading *reading, const struct tree *node, bool at_key, const char *path,
-                   const char *expected, const char *format, va_list list)
+static void record(struct scene_reader *reader, const struct tree *node, bool at_key,
+                   const char *path, const char *expected, const char *format, va_list list)
 {
   char words[WORDS_SIZE], own[PATH_SIZE] = "";
-  const struct tree *shown = node ? node : reading->here;
+  const struct tree *shown = node ? node : reader->here;
   const struct place *place = NULL;
-  const bool shown_path = !trace_is_full(reading->trace);
+  const bool shown_path = !trace_is_full(reader->trace);
   vsnprintf(words, sizeof words, format, list);
   if (shown) {
     place = at_key || !node ? &shown->key_place : &shown->place;
@@ -59,66 +59,66 @@ static void record(struct reading *reading, const struct tree *node, bool at_key
   }
   if (!path && own[0])
     path = own;
-  trace_fail_at(reading->trace, GAMUT_SCENE, place, path, expected, "%s", words);
-  reading->faults++;
-  if (reading->first == GAMUT_OK)
-    reading->first = GAMUT_SCENE;
+  trace_fail_at(reader->trace, GAMUT_SCENE, place, path, expected, "%s", words);
+  reader->faults++;
+  if (reader->first == GAMUT_OK)
+    reader->first = GAMUT_SCENE;
 }
 
-void blame_value(struct reading *reading, const struct tree *node, const char *expected,
-                 const char *format, ...)
+void error_at_value(struct scene_reader *reader, const struct tree *node, const char *expected,
+                    const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  record(reading, node, false, NULL, expected, format, list);
+  record(reader, node, false, NULL, expected, format, list);
   va_end(list);
 }
 
-void blame_key(struct reading *reading, const struct tree *node, const char *expected,
-               const char *format, ...)
+void error_at_key(struct scene_reader *reader, const struct tree *node, const char *expected,
+                  const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  record(reading, node, true, NULL, expected, format, list);
+  record(reader, node, true, NULL, expected, format, list);
   va_end(list);
 }
 
-void blame_missing(struct reading *reading, const struct tree *node, const char *path,
-                   const char *expected, const char *format, ...)
+void error_at_missing(struct scene_reader *reader, const struct tree *node, const char *path,
+                      const char *expected, const char *format, ...)
 {
   va_list list;
   va_start(list, format);
-  record(reading, node, true, path, expected, format, list);
+  record(reader, node, true, path, expected, format, list);
   va_end(list);
 }
 
-void blame_place(struct reading *reading, const struct place *place, const struct tree *node,
-                 const char *expected, const char *format, ...)
+void error_at_place(struct scene_reader *reader, const struct place *place, const struct tree *node,
+                    const char *expected, const char *format, ...)
 {
   char words[WORDS_SIZE], path[PATH_SIZE];
   va_list list;
   va_start(list, format);
   vsnprintf(words, sizeof words, format, list);
   va_end(list);
-  trace_fail_at(reading->trace, GAMUT_SCENE, place, tree_path(node, path, sizeof path), expected,
+  trace_fail_at(reader->trace, GAMUT_SCENE, place, tree_path(node, path, sizeof path), expected,
                 "%s", words);
-  reading->faults++;
-  if (reading->first == GAMUT_OK)
-    reading->first = GAMUT_SCENE;
+  reader->faults++;
+  if (reader->first == GAMUT_OK)
+    reader->first = GAMUT_SCENE;
 }
 
-void warn_value(struct reading *reading, const struct tree *node, const char *expected,
+void warn_value(struct scene_reader *reader, const struct tree *node, const char *expected,
                 const char *format, ...)
 {
   char words[WORDS_SIZE], path[PATH_SIZE] = "";
-  const struct tree *shown = node ? node : reading->here;
+  const struct tree *shown = node ? node : reader->here;
   va_list list;
   va_start(list, format);
   vsnprintf(words, sizeof words, format, list);
   va_end(list);
   if (shown)
     tree_path(shown, path, sizeof path);
-  trace_warn_at(reading->trace, shown ? &shown->place : NULL, path[0] ? path : NULL, expected, "%s",
+  trace_warn_at(reader->trace, shown ? &shown->place : NULL, path[0] ? path : NULL, expected, "%s",
                 words);
 }
 
@@ -137,10 +137,10 @@ char *list_text(const char *const *name, size_t count, char *buffer, size_t size
   return buffer;
 }
 
-const char *suggest(const struct reading *reading, const char *word, const char *const *known,
+const char *suggest(const struct scene_reader *reader, const char *word, const char *const *known,
                     size_t count, char *buffer, size_t size)
 {
-  if (trace_is_full(reading->trace))
+  if (trace_is_full(reader->trace))
     return NULL;
   const char *near = nearest(word, known, count);
   if (near) {
@@ -154,36 +154,37 @@ const char *suggest(const struct reading *reading, const char *word, const char 
   return buffer;
 }
 
-const char *suggest_key(const struct reading *reading, const char *word, const struct tree *mapping,
-                        char *buffer, size_t size)
+const char *suggest_key(const struct scene_reader *reader, const char *word,
+                        const struct tree *mapping, char *buffer, size_t size)
 {
-  if (trace_is_full(reading->trace) || !mapping)
+  if (trace_is_full(reader->trace) || !mapping)
     return NULL;
   const char **known = scene_take(mapping->children, sizeof *known);
   for (size_t i = 0; i < mapping->children; i++)
     known[i] = mapping->child[i]->key;
-  const char *words = suggest(reading, word, known, mapping->children, buffer, size);
+  const char *words = suggest(reader, word, known, mapping->children, buffer, size);
   free(known);
   return words;
 }
 
-void neighbour_add(struct reading *reading, const char *where, const struct parameter *parameter,
-                   size_t parameters, const char *const *key, size_t keys)
+void neighbour_add(struct scene_reader *reader, const char *where,
+                   const struct parameter *parameter, size_t parameters, const char *const *key,
+                   size_t keys)
 {
-  if (reading->neighbours < NEIGHBOURS_MAX)
-    reading->neighbour[reading->neighbours++] =
+  if (reader->neighbours < NEIGHBOURS_MAX)
+    reader->neighbour[reader->neighbours++] =
         (struct neighbour){where, parameter, parameters, key, keys};
 }
 
 /* The key as a neighbour or a group below spells it: exactly, or the nearest. */
-static const char *elsewhere(const struct reading *reading, const char *key,
+static const char *elsewhere(const struct scene_reader *reader, const char *key,
                              const struct parameter *parameter, size_t count, bool exactly,
                              char *where, size_t size)
 {
-  for (size_t i = 0; i < count + reading->neighbours; i++) {
+  for (size_t i = 0; i < count + reader->neighbours; i++) {
     struct neighbour n = {0};
     if (i >= count)
-      n = reading->neighbour[i - count];
+      n = reader->neighbour[i - count];
     else if (parameter[i].type == VALUE_GROUP)
       n = (struct neighbour){NULL, parameter[i].member, parameter[i].members, NULL, 0};
     size_t names = n.keys + n.parameters;
@@ -206,22 +207,22 @@ static const char *elsewhere(const struct reading *reading, const char *key,
   return NULL;
 }
 
-void blame_unknown(struct reading *reading, const struct tree *child,
-                   const struct parameter *parameter, size_t count, const char *const *also,
-                   size_t others, const char *what)
+void error_at_unknown(struct scene_reader *reader, const struct tree *child,
+                      const struct parameter *parameter, size_t count, const char *const *also,
+                      size_t others, const char *what)
 {
   char expected[WORDS_SIZE], where[128], list[WORDS_SIZE - 64];
-  if (trace_is_full(reading->trace)) {
-    blame_key(reading, child, NULL, "unknown key '%s' in %s", child->key, what);
+  if (trace_is_full(reader->trace)) {
+    error_at_key(reader, child, NULL, "unknown key '%s' in %s", child->key, what);
     return;
   }
   const char **known = scene_take(count + others, sizeof *known);
   for (size_t i = 0; i < count + others; i++)
     known[i] = i < others ? also[i] : parameter[i - others].name;
-  const char *found = elsewhere(reading, child->key, parameter, count, true, where, sizeof where);
+  const char *found = elsewhere(reader, child->key, parameter, count, true, where, sizeof where);
   const char *near = nearest(child->key, known, count + others);
-  if (near && !found && !foreign_name(child->key) && reading->guesses < GUESSES_MAX)
-    reading->guess[reading->guesses++] = (struct guess){child->parent, near};
+  if (near && !found && !foreign_name(child->key) && reader->guesses < GUESSES_MAX)
+    reader->guess[reader->guesses++] = (struct guess){child->parent, near};
   const char *instead = foreign_name(child->key), *now = renamed_key(child);
   if (now && !has_name(known, count + others, now))
     now = NULL;
@@ -237,66 +238,66 @@ void blame_unknown(struct reading *reading, const struct tree *child,
   } else if (near) {
     snprintf(expected, sizeof expected, "did you mean '%s'?", near);
   } else {
-    found = elsewhere(reading, child->key, parameter, count, false, where, sizeof where);
+    found = elsewhere(reader, child->key, parameter, count, false, where, sizeof where);
     if (found)
       snprintf(expected, sizeof expected, "did you mean '%s' %s?", found, where);
     else
       snprintf(expected, sizeof expected, "known: %s",
                list_text(known, count + others, list, sizeof list));
   }
-  blame_key(reading, child, count + others || found || instead || now ? expected : NULL,
-            "unknown key '%s' in %s", child->key, what);
+  error_at_key(reader, child, count + others || found || instead || now ? expected : NULL,
+               "unknown key '%s' in %s", child->key, what);
   free(known);
 }
 
-bool was_meant(const struct reading *reading, const struct tree *mapping, const char *name)
+bool is_typo_of(const struct scene_reader *reader, const struct tree *mapping, const char *name)
 {
-  for (size_t i = 0; i < reading->guesses; i++)
-    if (reading->guess[i].mapping == mapping && strcmp(reading->guess[i].name, name) == 0)
+  for (size_t i = 0; i < reader->guesses; i++)
+    if (reader->guess[i].mapping == mapping && strcmp(reader->guess[i].name, name) == 0)
       return true;
   return false;
 }
 
-bool expect_mapping(struct reading *reading, const struct tree *node, const char *what)
+bool expect_mapping(struct scene_reader *reader, const struct tree *node, const char *what)
 {
   if (node->kind == TREE_MAPPING)
     return true;
-  blame_value(reading, node, "keys with values, 'key: value'", "%s is %s where a mapping is due",
-              what,
-              node->kind == TREE_SEQUENCE ? "a list"
-              : node->text[0]             ? "a plain value"
-                                          : "empty");
+  error_at_value(reader, node, "keys with values, 'key: value'", "%s is %s where a mapping is due",
+                 what,
+                 node->kind == TREE_SEQUENCE ? "a list"
+                 : node->text[0]             ? "a plain value"
+                                             : "empty");
   return false;
 }
 
-bool expect_members(struct reading *reading, const struct tree *node, const char *what,
+bool expect_members(struct scene_reader *reader, const struct tree *node, const char *what,
                     const char *member, bool needed, size_t most)
 {
   char expected[96];
-  if (!expect_mapping(reading, node, what))
+  if (!expect_mapping(reader, node, what))
     return false;
   if (node->children == 0 && needed)
-    blame_value(reading, node, member, "%s is empty", what);
+    error_at_value(reader, node, member, "%s is empty", what);
   else if (node->children <= most)
     return true;
   else {
     snprintf(expected, sizeof expected, "at most %zu", most);
-    blame_key(reading, node, expected, "%s has %zu members", what, node->children);
+    error_at_key(reader, node, expected, "%s has %zu members", what, node->children);
   }
   return false;
 }
 
-void expect_keys(struct reading *reading, const struct tree *node, const char *const *known,
+void expect_keys(struct scene_reader *reader, const struct tree *node, const char *const *known,
                  size_t count, const char *what)
 {
   for (size_t i = 0; i < node->children; i++) {
     if (!has_name(known, count, node->child[i]->key))
-      blame_unknown(reading, node->child[i], NULL, 0, known, count, what);
+      error_at_unknown(reader, node->child[i], NULL, 0, known, count, what);
   }
 }
 
 /* A path `b.c` would mean both the member c of `b` and `b.c` itself. */
-static bool beside_its_first_part(struct reading *reading, const struct tree *node)
+static bool beside_its_first_part(struct scene_reader *reader, const struct tree *node)
 {
   char first[64], expected[192], path[PATH_SIZE];
   for (const char *dot = strchr(node->key, '.'); dot; dot = strchr(dot + 1, '.')) {
@@ -305,21 +306,21 @@ static bool beside_its_first_part(struct reading *reading, const struct tree *no
       continue;
     snprintf(expected, sizeof expected, "another name for one of them, such as '%s_%s'", first,
              dot + 1);
-    blame_key(reading, node, expected, "'%s' beside '%s': '%s.%s' would mean two things", node->key,
-              first, tree_path(node->parent, path, sizeof path), node->key);
+    error_at_key(reader, node, expected, "'%s' beside '%s': '%s.%s' would mean two things",
+                 node->key, first, tree_path(node->parent, path, sizeof path), node->key);
     return true;
   }
   return false;
 }
 
-bool expect_name(struct reading *reading, const struct tree *node, const char *what)
+bool expect_name(struct scene_reader *reader, const struct tree *node, const char *what)
 {
   bool fine = isalnum((unsigned char)node->key[0]) && strlen(node->key) < 64;
   for (const char *c = node->key; *c && fine; c++)
     fine = isalnum((unsigned char)*c) || *c == '_' || *c == '-' || *c == '.';
   if (!fine)
-    blame_key(reading, node,
-              "letters, digits, '_', '-' and '.', at most 63 of them, first a letter or digit",
-              "'%s' cannot be the name of %s", node->key, what);
-  return fine && !beside_its_first_part(reading, node);
+    error_at_key(reader, node,
+                 "letters, digits, '_', '-' and '.', at most 63 of them, first a letter or digit",
+                 "'%s' cannot be the name of %s", node->key, what);
+  return fine && !beside_its_first_part(reader, node);
 }

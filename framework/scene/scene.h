@@ -29,8 +29,8 @@
 #ifndef GAMUT_SCENE_ROOM_H
 #define GAMUT_SCENE_ROOM_H
 
+#include "base/error.h"
 #include "descriptor/descriptor.h"
-#include "error/error.h"
 #include "expression/expression.h"
 #include "random/distribution.h"
 #include "registry/registry.h"
@@ -64,7 +64,7 @@ struct value {
 /* The values of one plugin instance, in the order of the descriptor's parameters. Plugins see it as
  * the opaque struct gamut_values, through the host. */
 struct gamut_values {
-  const struct gamut_host *host; /* first, see <gamut/run.h>; set by whoever makes the run */
+  const struct gamut_host *host; /* first, see <gamut/host.h>; set by whoever makes the run */
   const struct parameter *parameter;
   struct value *value;
   size_t count;

@@ -292,7 +292,7 @@ static json_t *definitions(const struct registry *registry)
   json_t *value = json_pack("{s:[s, s]}", "type", "number", "string");
   json_t *random =
       object(json_pack("{s:O, s:O, s:O, s:{s:o}, s:O, s:O, s:{s:[s, s]}, s:o}", "mean", value, "cv",
-                       value, "sd", value, "distribution", "enum", words(kinds, COUNT_OF(kinds)),
+                       value, "sd", value, "distribution", "enum", words(kinds, ARRAY_SIZE(kinds)),
                        "lower", value, "upper", value, "truncate", "type", "boolean", "array",
                        "field", reference(kind_name(GAMUT_KIND_RANDOM_FIELD))),
              true);

@@ -154,11 +154,11 @@ void shape_bounds(const struct shape *shape, double lower[3], double upper[3])
   }
 }
 
-void shape_extent(const struct reading *reading, const struct shape *shape, double lower[3],
+void shape_extent(const struct scene_reader *reader, const struct shape *shape, double lower[3],
                   double upper[3])
 {
   shape_bounds(shape, lower, upper);
-  if (reading->axisymmetric)
+  if (reader->axisymmetric)
     lower[0] = fmax(lower[0], 0);
 }
 

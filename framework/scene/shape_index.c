@@ -128,16 +128,16 @@ static size_t grow(struct shape_index *index, struct seat *seat, size_t first, s
   return number;
 }
 
-void shape_index_make(struct reading *reading, struct shape *shape)
+void shape_index_make(struct scene_reader *reader, struct shape *shape)
 {
   const size_t count = shape->kind == SHAPE_UNION ? shape->parts : shape->points.count;
   shape->index = NULL;
   if (count <= FEW)
     return;
-  struct shape_index *index = scene_keep(reading, 1, sizeof *index);
+  struct shape_index *index = scene_keep(reader, 1, sizeof *index);
   struct seat *seat = scene_take(count, sizeof *seat);
-  index->node = scene_keep(reading, 2 * count, sizeof *index->node);
-  index->item = scene_keep(reading, count, sizeof *index->item);
+  index->node = scene_keep(reader, 2 * count, sizeof *index->node);
+  index->item = scene_keep(reader, count, sizeof *index->item);
   for (size_t i = 0; i < count; i++)
     seat[i] = (struct seat){box_of(shape, i), 0, i};
   grow(index, seat, 0, count);

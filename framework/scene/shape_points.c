@@ -78,18 +78,18 @@ static bool points_differ(struct table_file *file, const struct shape_points *po
 }
 
 /* From the rows of the file. */
-static bool points_take(struct reading *reading, struct table_file *file, double spacing,
+static bool points_take(struct scene_reader *reader, struct table_file *file, double spacing,
                         struct shape *shape)
 {
-  unsigned axes = reading->axes ? reading->axes : 3;
+  unsigned axes = reader->axes ? reader->axes : 3;
   size_t numbers, width = axes + (spacing > 0 ? 0 : 1);
   double *number = table_file_numbers(file, &numbers);
   const size_t count = numbers / width;
   bool fine = true;
   shape->points = (struct shape_points){.count = count,
-                                        .place = scene_keep(reading, 3 * count, sizeof(double)),
-                                        .volume = scene_keep(reading, count, sizeof(double)),
-                                        .half = scene_keep(reading, count, sizeof(double))};
+                                        .place = scene_keep(reader, 3 * count, sizeof(double)),
+                                        .volume = scene_keep(reader, count, sizeof(double)),
+                                        .half = scene_keep(reader, count, sizeof(double))};
   for (size_t i = 0; i < count && fine; i++) {
     const double *row = &number[i * width];
     double *place = &shape->points.place[3 * i];
@@ -104,30 +104,30 @@ static bool points_take(struct reading *reading, struct table_file *file, double
   return fine && points_differ(file, &shape->points);
 }
 
-bool shape_points_read(struct reading *reading, const struct tree *node, struct shape *shape)
+bool shape_points_read(struct scene_reader *reader, const struct tree *node, struct shape *shape)
 {
   static const char *const known[] = {"file", "spacing"};
   const struct tree *file = tree_get(node, "file");
-  unsigned axes = reading->axes ? reading->axes : 3;
+  unsigned axes = reader->axes ? reader->axes : 3;
   double spacing = 0;
-  expect_keys(reading, node, known, COUNT_OF(known), "points");
+  expect_keys(reader, node, known, ARRAY_SIZE(known), "points");
   if (!file || file->kind != TREE_SCALAR || file->text[0] == 0) {
-    if (file || !was_meant(reading, node, "file"))
-      blame_key(reading, node, "points: {file: NAME.csv}", "'points' names no file");
+    if (file || !is_typo_of(reader, node, "file"))
+      error_at_key(reader, node, "points: {file: NAME.csv}", "'points' names no file");
     return false;
   }
-  if (!length_read(reading, node, "spacing", false, false, &spacing))
+  if (!length_read(reader, node, "spacing", false, false, &spacing))
     return false;
   const char *unit[4] = {"m", "m", "m", "m"}, *name[4] = {"x", "y", "z"};
   name[axes] = "volume";
-  unit[axes] = axes == 1 ? "m" : axes == 2 && !reading->axisymmetric ? "m2" : "m3";
+  unit[axes] = axes == 1 ? "m" : axes == 2 && !reader->axisymmetric ? "m2" : "m3";
   const struct parameter parameter = {.name = "points",
                                       .type = VALUE_TABLE,
                                       .choice = name,
                                       .choice_unit = unit,
                                       .choices = axes + (spacing > 0 ? 0 : 1)};
-  struct table_file *table = table_file_read(reading, &parameter, file);
-  bool fine = table && points_take(reading, table, spacing, shape);
+  struct table_file *table = table_file_read(reader, &parameter, file);
+  bool fine = table && points_take(reader, table, spacing, shape);
   table_file_free(table);
   return fine;
 }

@@ -7,7 +7,7 @@
 
 #include <csv.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "scene/scene_private.h"
 #include "tree/load.h"
 
@@ -21,7 +21,7 @@ struct head {
 };
 
 struct table_file {
-  struct reading *reading;
+  struct scene_reader *reader;
   const struct parameter *parameter;
   const struct tree *node;
   char path[PATH_MAX];
@@ -73,7 +73,7 @@ static void fault(struct table_file *table, size_t byte, const char *expected, c
   vsnprintf(words, sizeof words, format, list);
   va_end(list);
   char *source = locate(table, byte, &place);
-  blame_place(table->reading, &place, table->node, expected, "%s", words);
+  error_at_place(table->reader, &place, table->node, expected, "%s", words);
   free(source);
   table->failed = true;
 }
@@ -112,7 +112,7 @@ static bool head_cell(struct table_file *table, const char *cell)
 /* Scale and offset of a unit, so that each number need not be read together with it. */
 static bool unit_fits(struct table_file *table, struct head *head, const char *unit)
 {
-  const struct units *units = table->reading->units;
+  const struct units *units = table->reader->units;
   char text[96];
   double one;
   if (!head->unit)
@@ -159,7 +159,7 @@ static void head_row(struct table_file *table)
 static bool cell_number(const struct table_file *table, const struct head *head, const char *cell,
                         double *number)
 {
-  const struct units *units = table->reading->units;
+  const struct units *units = table->reader->units;
   if (!head->unit)
     return unit_read_bare(units, cell, unit_of(table->parameter, head->wanted), number) == UNIT_OK;
   if (strspn(cell, "0123456789+-.eE") < strlen(cell) ||
@@ -278,7 +278,7 @@ static void parse(struct table_file *table)
           table->headed ? "the table has no rows" : "there is nothing in it");
 }
 
-struct table_file *table_file_read(struct reading *reading, const struct parameter *parameter,
+struct table_file *table_file_read(struct scene_reader *reader, const struct parameter *parameter,
                                    const struct tree *name)
 {
   const char *from = name->place.file ? name->place.file : "";
@@ -286,15 +286,15 @@ struct table_file *table_file_read(struct reading *reading, const struct paramet
   const bool absolute = name->text[0] == '/' || !slash;
   char why[160] = "the name is too long";
   struct table_file *table = scene_take(1, sizeof *table);
-  table->reading = reading;
+  table->reader = reader;
   table->parameter = parameter;
   table->node = name;
   const int length = snprintf(table->path, sizeof table->path, "%.*s%s",
                               absolute ? 0 : (int)(slash - from + 1), from, name->text);
   if (length >= (int)sizeof table->path ||
       !text_load(table->path, TABLE_BYTES_MAX, &table->text, &table->size, why, sizeof why)) {
-    blame_value(reading, name, "a CSV file beside this one", "table file '%.300s': %s", table->path,
-                why);
+    error_at_value(reader, name, "a CSV file beside this one", "table file '%.300s': %s",
+                   table->path, why);
     table->failed = true;
   } else {
     parse(table);

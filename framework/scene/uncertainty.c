@@ -79,10 +79,10 @@ static int by_node(const void *one, const void *other)
 }
 
 /* `all` is sorted by node; a node stands for one parameter. */
-static void put_in_order(struct reading *reading, const struct collection *all,
+static void put_in_order(struct scene_reader *reader, const struct collection *all,
                          const struct tree *node)
 {
-  struct scene *scene = reading->scene;
+  struct scene *scene = reader->scene;
   char path[PATH_SIZE];
   const struct random_parameter wanted = {.node = node};
   const struct random_parameter *found =
@@ -90,28 +90,28 @@ static void put_in_order(struct reading *reading, const struct collection *all,
   if (found) {
     struct random_parameter *next = &scene->random_parameter[scene->random_parameters++];
     *next = *found;
-    next->path = scene_text(reading, "%s", tree_path(node, path, sizeof path));
+    next->path = scene_text(reader, "%s", tree_path(node, path, sizeof path));
   }
   for (size_t i = 0; i < node->children; i++)
-    put_in_order(reading, all, node->child[i]);
+    put_in_order(reader, all, node->child[i]);
 }
 
-static void random_parameters_read(struct reading *reading)
+static void random_parameters_read(struct scene_reader *reader)
 {
-  struct scene *scene = reading->scene;
+  struct scene *scene = reader->scene;
   struct collection all = {0};
   collect_scene(&all, scene);
-  scene->random_parameter = scene_keep(reading, all.count + 1, sizeof *scene->random_parameter);
+  scene->random_parameter = scene_keep(reader, all.count + 1, sizeof *scene->random_parameter);
   if (all.count > 0) {
     qsort(all.item, all.count, sizeof *all.item, by_node);
-    put_in_order(reading, &all, scene->tree);
+    put_in_order(reader, &all, scene->tree);
   }
   free(all.item);
 }
 
-static struct reading judge(struct trace *trace, const struct random_parameter *random)
+static struct scene_reader judge(struct trace *trace, const struct random_parameter *random)
 {
-  return (struct reading){.trace = trace, .here = random->node};
+  return (struct scene_reader){.trace = trace, .here = random->node};
 }
 
 gamut_status scene_draw(struct scene *scene, const double *drawn, struct trace *trace)
@@ -119,21 +119,21 @@ gamut_status scene_draw(struct scene *scene, const double *drawn, struct trace *
   gamut_status status = GAMUT_OK;
   struct random_parameter *random = scene->random_parameter;
   for (size_t i = 0; i < scene->random_parameters; i++) {
-    struct reading reading = judge(trace, &random[i]);
+    struct scene_reader reader = judge(trace, &random[i]);
     *random[i].number = drawn[i];
-    range_check(&reading, random[i].parameter, random[i].node, drawn[i]);
-    status = status ? status : reading.first;
+    range_check(&reader, random[i].parameter, random[i].node, drawn[i]);
+    status = status ? status : reader.first;
   }
   /* What follows from them and what must hold between them, once a plugin. */
   for (size_t i = 0; status == GAMUT_OK && i < scene->random_parameters; i++) {
     char what[160];
-    struct reading reading = judge(trace, &random[i]);
+    struct scene_reader reader = judge(trace, &random[i]);
     const struct descriptor *descriptor = random[i].descriptor;
     if (!descriptor || (i > 0 && random[i - 1].values == random[i].values))
       continue;
     snprintf(what, sizeof what, "%s '%s'", kind_name(descriptor->kind), descriptor->name);
-    values_check(&reading, random[i].values, descriptor, what);
-    status = reading.first;
+    values_check(&reader, random[i].values, descriptor, what);
+    status = reader.first;
   }
   return status;
 }
@@ -163,11 +163,11 @@ const struct random_parameter *scene_conflict(struct scene *scene, const double 
   return found;
 }
 
-static bool random_named(struct reading *reading, const struct tree *node, size_t *index)
+static bool random_named(struct scene_reader *reader, const struct tree *node, size_t *index)
 {
-  const struct scene *scene = reading->scene;
+  const struct scene *scene = reader->scene;
   char expected[WORDS_SIZE];
-  const char *path = text_read(reading, node, "correlation");
+  const char *path = text_read(reader, node, "correlation");
   if (!path)
     return false;
   const char **name = scene_take(scene->random_parameters, sizeof *name);
@@ -180,102 +180,102 @@ static bool random_named(struct reading *reading, const struct tree *node, size_
     found = true;
   }
   if (!found)
-    blame_value(
-        reading, node,
+    error_at_value(
+        reader, node,
         scene->random_parameters && !tree_at(scene->tree, path)
-            ? suggest(reading, path, name, scene->random_parameters, expected, sizeof expected)
+            ? suggest(reader, path, name, scene->random_parameters, expected, sizeof expected)
             : "give it a spread, such as {mean: 90 MPa, cv: 0.1}",
         "'%.200s' is no random parameter of this scene", path);
   free(name);
   return found;
 }
 
-static bool row_read(struct reading *reading, const struct tree *row)
+static bool row_read(struct scene_reader *reader, const struct tree *row)
 {
-  struct scene *scene = reading->scene;
+  struct scene *scene = reader->scene;
   size_t n = scene->random_parameters, i, k;
   double number;
   if (row->kind != TREE_SEQUENCE || row->children != 3) {
-    blame_value(reading, row, "[path, path, number]", "this is no row of the correlation");
+    error_at_value(reader, row, "[path, path, number]", "this is no row of the correlation");
     return false;
   }
-  if (!random_named(reading, row->child[0], &i) || !random_named(reading, row->child[1], &k) ||
-      !amount_read(reading, row->child[2], "correlation", "1", &number))
+  if (!random_named(reader, row->child[0], &i) || !random_named(reader, row->child[1], &k) ||
+      !amount_read(reader, row->child[2], "correlation", "1", &number))
     return false;
   if (i == k) {
-    blame_value(reading, row->child[1], "two different parameters",
-                "a parameter is always fully correlated with itself");
+    error_at_value(reader, row->child[1], "two different parameters",
+                   "a parameter is always fully correlated with itself");
     return false;
   }
   if (!(fabs(number) <= 1)) {
-    blame_value(reading, row->child[2], "from -1 to 1", "%.6g is no correlation of two parameters",
-                number);
+    error_at_value(reader, row->child[2], "from -1 to 1",
+                   "%.6g is no correlation of two parameters", number);
     return false;
   }
   if (scene->correlation[i * n + k] != 0) {
-    blame_value(reading, row, "one row for each pair", "this pair was given before");
+    error_at_value(reader, row, "one row for each pair", "this pair was given before");
     return false;
   }
   scene->correlation[i * n + k] = scene->correlation[k * n + i] = number;
   return true;
 }
 
-static void correlation_read(struct reading *reading, const struct tree *node)
+static void correlation_read(struct scene_reader *reader, const struct tree *node)
 {
-  struct scene *scene = reading->scene;
+  struct scene *scene = reader->scene;
   size_t n = scene->random_parameters;
   bool fine = true;
   if (!node)
     return;
   if (node->kind != TREE_SEQUENCE) {
-    blame_value(reading, node, "[[path, path, number], ...]", "'correlation' is no list of rows");
+    error_at_value(reader, node, "[[path, path, number], ...]", "'correlation' is no list of rows");
     return;
   }
   if (node->children == 0)
     return;
-  scene->correlation = scene_keep(reading, n * n + 1, sizeof *scene->correlation);
+  scene->correlation = scene_keep(reader, n * n + 1, sizeof *scene->correlation);
   for (size_t i = 0; i < node->children; i++)
-    fine = row_read(reading, node->child[i]) && fine;
+    fine = row_read(reader, node->child[i]) && fine;
   for (size_t i = 0; i < n; i++)
     scene->correlation[i * n + i] = 1;
   if (!fine)
     return;
   double least = correlation_smallest(scene->correlation, n);
   if (!(least >= -CORRELATION_LEAST))
-    blame_value(reading, node, "make some of them smaller",
-                "no random parameters have these correlations together: the smallest eigenvalue "
-                "of their matrix is %.3g, below 0",
-                least);
+    error_at_value(reader, node, "make some of them smaller",
+                   "no random parameters have these correlations together: the smallest eigenvalue "
+                   "of their matrix is %.3g, below 0",
+                   least);
 }
 
-static void seed_read(struct reading *reading, const struct tree *node)
+static void seed_read(struct scene_reader *reader, const struct tree *node)
 {
-  reading->scene->seed = 1;
+  reader->scene->seed = 1;
   if (!node)
     return;
   const char *text = node->kind == TREE_SCALAR && !node->quoted ? node->text : "";
   size_t digits = strspn(text, "0123456789");
   static const char range[] = "a whole number from 0 to 9223372036854775807";
   if (digits == 0 || text[digits]) {
-    blame_value(reading, node, range, "'seed' is no whole number");
+    error_at_value(reader, node, range, "'seed' is no whole number");
     return;
   }
   errno = 0;
   const unsigned long long seed = strtoull(text, NULL, 10);
   if (errno == ERANGE || seed > INT64_MAX) /* whole numbers of JSON, in the summary, end there */
-    blame_value(reading, node, range, "'seed' is too large: %.60s", text);
+    error_at_value(reader, node, range, "'seed' is too large: %.60s", text);
   else
-    reading->scene->seed = seed;
+    reader->scene->seed = seed;
 }
 
-static void failures_read(struct reading *reading, const struct tree *node)
+static void failures_read(struct scene_reader *reader, const struct tree *node)
 {
-  reading->scene->failures = 0.1;
-  if (!node || !amount_read(reading, node, "failures", "1", &reading->scene->failures))
+  reader->scene->failures = 0.1;
+  if (!node || !amount_read(reader, node, "failures", "1", &reader->scene->failures))
     return;
-  if (!(reading->scene->failures >= 0 && reading->scene->failures < 1))
-    blame_value(reading, node, "at least 0 and less than 1",
-                "'failures' is the share of runs that may fail");
+  if (!(reader->scene->failures >= 0 && reader->scene->failures < 1))
+    error_at_value(reader, node, "at least 0 and less than 1",
+                   "'failures' is the share of runs that may fail");
 }
 
 /* `off`: one run at the means, as if there were no estimator. */
@@ -284,20 +284,20 @@ static bool says_off(const struct tree *node)
   return node->kind == TREE_SCALAR && strcmp(node->text, "off") == 0;
 }
 
-void uncertainty_read(struct reading *reading, const struct tree *root)
+void uncertainty_read(struct scene_reader *reader, const struct tree *root)
 {
   static const char *const known[] = {"estimator", "correlation", "seed", "failures"};
   const struct tree *node = tree_get(root, "uncertainty"), *estimator;
-  random_parameters_read(reading);
-  if (node && (!expect_mapping(reading, node, "'uncertainty'")))
+  random_parameters_read(reader);
+  if (node && (!expect_mapping(reader, node, "'uncertainty'")))
     node = NULL;
   if (node)
-    expect_keys(reading, node, known, COUNT_OF(known), "'uncertainty'");
-  seed_read(reading, tree_get(node, "seed"));
-  failures_read(reading, tree_get(node, "failures"));
-  correlation_read(reading, tree_get(node, "correlation"));
+    expect_keys(reader, node, known, ARRAY_SIZE(known), "'uncertainty'");
+  seed_read(reader, tree_get(node, "seed"));
+  failures_read(reader, tree_get(node, "failures"));
+  correlation_read(reader, tree_get(node, "correlation"));
   estimator = tree_get(node, "estimator");
   if (estimator && !says_off(estimator))
-    instance_read(reading, GAMUT_KIND_ESTIMATOR, "estimator", estimator, NULL, 0,
-                  &reading->scene->estimator);
+    instance_read(reader, GAMUT_KIND_ESTIMATOR, "estimator", estimator, NULL, 0,
+                  &reader->scene->estimator);
 }

@@ -13,7 +13,7 @@ static const char *const other_unit[] = {"g/cm3", "t/m3"};
 
 /* What is most likely meant, and how near it lies to the middle of the range. */
 struct guess_of_unit {
-  const struct reading *reading;
+  const struct scene_reader *reader;
   const struct parameter *parameter;
   const struct range *range;
   char text[96];
@@ -43,7 +43,7 @@ static void try_text(struct guess_of_unit *guess, const char *text, double bonus
 {
   double value;
   const char *unit = unit_is_pure(guess->parameter->unit) ? "1" : guess->parameter->unit;
-  if (unit_read(guess->reading->units, text, unit, &value) != UNIT_OK || value == 0 ||
+  if (unit_read(guess->reader->units, text, unit, &value) != UNIT_OK || value == 0 ||
       !is_usual(guess->parameter, guess->range, value))
     return;
   double distance = off_middle(guess->range, value) - bonus;
@@ -58,15 +58,15 @@ static void try_prefixes(struct guess_of_unit *guess, const char *number, const 
 {
   enum { CASE_ALONE = 100 };
   char text[160];
-  for (size_t i = 0; i < COUNT_OF(other_unit); i++) {
+  for (size_t i = 0; i < ARRAY_SIZE(other_unit); i++) {
     snprintf(text, sizeof text, "%s %s", number, other_unit[i]);
     try_text(guess, text, 0);
   }
-  for (size_t from = 0; from < COUNT_OF(prefix); from++) {
+  for (size_t from = 0; from < ARRAY_SIZE(prefix); from++) {
     size_t length = strlen(prefix[from]);
     if (strncmp(unit, prefix[from], length) != 0 || unit[length] == 0)
       continue;
-    for (size_t to = 0; to < COUNT_OF(prefix); to++) {
+    for (size_t to = 0; to < ARRAY_SIZE(prefix); to++) {
       bool alike = length == 1 && from != to && strlen(prefix[to]) == 1 &&
                    tolower((unsigned char)prefix[from][0]) == tolower((unsigned char)prefix[to][0]);
       snprintf(text, sizeof text, "%s %s%s", number, prefix[to], unit + length);
@@ -100,24 +100,24 @@ static void find_guess(struct guess_of_unit *guess, const struct tree *node)
     try_decimals(guess, digits, after);
 }
 
-void usual_check(struct reading *reading, const struct parameter *parameter,
+void usual_check(struct scene_reader *reader, const struct parameter *parameter,
                  const struct range *range, const struct tree *node, double value)
 {
   char words[160], expected[320];
-  if (!range->stated || !reading->units || reading->scaled || !node ||
-      node == parameter->standard || node->kind != TREE_SCALAR || is_usual(parameter, range, value))
+  if (!range->stated || !reader->units || reader->scaled || !node || node == parameter->standard ||
+      node->kind != TREE_SCALAR || is_usual(parameter, range, value))
     return;
-  struct guess_of_unit guess = {reading, parameter, range, "", INFINITY};
+  struct guess_of_unit guess = {reader, parameter, range, "", INFINITY};
   find_guess(&guess, node);
   range_text(range, parameter->unit, words, sizeof words);
   snprintf(expected, sizeof expected, "usual is %s%s%s%s", words,
            guess.text[0] ? "; did you mean " : "", guess.text, guess.text[0] ? "?" : "");
   bool pure = unit_is_pure(parameter->unit);
-  warn_value(reading, node, expected, "%s = %.6g%s%s is unusual", parameter->name, value,
+  warn_value(reader, node, expected, "%s = %.6g%s%s is unusual", parameter->name, value,
              pure ? "" : " ", pure ? "" : parameter->unit);
 }
 
-void unit_words_check(struct reading *reading, const struct tree *node)
+void unit_words_check(struct scene_reader *reader, const struct tree *node)
 {
   static const struct {
     const char *word, *is, *instead;
@@ -126,9 +126,9 @@ void unit_words_check(struct reading *reading, const struct tree *node)
   static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
   for (const char *at = node->text; *at;) {
     size_t length = strspn(at, letters);
-    for (size_t i = 0; i < COUNT_OF(odd); i++)
+    for (size_t i = 0; i < ARRAY_SIZE(odd); i++)
       if (length == strlen(odd[i].word) && strncmp(at, odd[i].word, length) == 0)
-        warn_value(reading, node, odd[i].instead, "'%s' is %s", odd[i].word, odd[i].is);
+        warn_value(reader, node, odd[i].instead, "'%s' is %s", odd[i].word, odd[i].is);
     at += length ? length : 1;
   }
 }

@@ -3,7 +3,7 @@
 
 #include "scene/scene_private.h"
 
-double *vector_read(struct reading *reading, const struct tree *node, const char *name,
+double *vector_read(struct scene_reader *reader, const struct tree *node, const char *name,
                     const char *unit, size_t least, size_t most, size_t *count)
 {
   char expected[192], example[96] = "0";
@@ -17,22 +17,22 @@ double *vector_read(struct reading *reading, const struct tree *node, const char
     snprintf(expected, sizeof expected, "%zu to %zu numbers in brackets, such as [%s, ...]", least,
              most, example);
   if (node->kind != TREE_SEQUENCE) {
-    blame_value(reading, node, expected, "'%s' is %s where a vector is due", name,
-                node->kind == TREE_MAPPING ? "a mapping"
-                : node->text[0]            ? "a number"
-                                           : "empty");
+    error_at_value(reader, node, expected, "'%s' is %s where a vector is due", name,
+                   node->kind == TREE_MAPPING ? "a mapping"
+                   : node->text[0]            ? "a number"
+                                              : "empty");
     return NULL;
   }
   if (node->children < least || node->children > most) {
-    blame_value(reading, node, expected, "'%s' has %zu component%s", name, node->children,
-                node->children == 1 ? "" : "s");
+    error_at_value(reader, node, expected, "'%s' has %zu component%s", name, node->children,
+                   node->children == 1 ? "" : "s");
     return NULL;
   }
   double *number = scene_take(node->children, sizeof *number);
-  size_t faults = reading->faults;
+  size_t faults = reader->faults;
   for (size_t i = 0; i < node->children; i++)
-    amount_read(reading, node->child[i], name, unit, &number[i]);
-  if (reading->faults == faults) {
+    amount_read(reader, node->child[i], name, unit, &number[i]);
+  if (reader->faults == faults) {
     *count = node->children;
     return number;
   }
@@ -40,10 +40,10 @@ double *vector_read(struct reading *reading, const struct tree *node, const char
   return NULL;
 }
 
-static bool table_in_place(struct reading *reading, const struct parameter *parameter,
+static bool table_in_place(struct scene_reader *reader, const struct parameter *parameter,
                            const struct tree *node, struct value *value)
 {
-  size_t columns = parameter->choices, faults = reading->faults;
+  size_t columns = parameter->choices, faults = reader->faults;
   char expected[WORDS_SIZE - 64], wanted[WORDS_SIZE];
   list_text(parameter->choice, columns, expected, sizeof expected);
   snprintf(wanted, sizeof wanted, "each row is [%s]", expected);
@@ -51,57 +51,57 @@ static bool table_in_place(struct reading *reading, const struct parameter *para
   for (size_t i = 0; i < node->children; i++) {
     const struct tree *row = node->child[i];
     if (row->kind != TREE_SEQUENCE || row->children != columns) {
-      blame_value(reading, row, wanted, "row %zu of the table '%s' has not %zu columns", i + 1,
-                  parameter->name, columns);
+      error_at_value(reader, row, wanted, "row %zu of the table '%s' has not %zu columns", i + 1,
+                     parameter->name, columns);
       continue;
     }
     for (size_t k = 0; k < columns; k++)
-      amount_read(reading, row->child[k], parameter->choice[k], parameter->choice_unit[k],
+      amount_read(reader, row->child[k], parameter->choice[k], parameter->choice_unit[k],
                   &number[i * columns + k]);
   }
   value->number = number;
   value->numbers = node->children * columns;
-  return reading->faults == faults;
+  return reader->faults == faults;
 }
 
-static bool table_from_file(struct reading *reading, const struct parameter *parameter,
+static bool table_from_file(struct scene_reader *reader, const struct parameter *parameter,
                             const struct tree *node, struct value *value)
 {
   static const char *const known[] = {"file"};
   const struct tree *name = tree_get(node, "file");
-  expect_keys(reading, node, known, 1, "a table");
+  expect_keys(reader, node, known, 1, "a table");
   if (name && name->kind == TREE_SCALAR && name->text[0]) {
-    struct table_file *file = table_file_read(reading, parameter, name);
+    struct table_file *file = table_file_read(reader, parameter, name);
     if (file)
       value->number = table_file_numbers(file, &value->numbers);
     table_file_free(file);
     return file != NULL;
   }
-  blame_value(reading, node, "rows in brackets, or {file: NAME.csv}", "table '%s' names no file",
-              parameter->name);
+  error_at_value(reader, node, "rows in brackets, or {file: NAME.csv}", "table '%s' names no file",
+                 parameter->name);
   return false;
 }
 
 /* One number where a curve may stand: a single row that begins with 0. */
-static bool table_of_one(struct reading *reading, const struct parameter *parameter,
+static bool table_of_one(struct scene_reader *reader, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
   value->number = scene_take(2, sizeof *value->number);
   value->numbers = 2;
-  return amount_read(reading, node, parameter->name, parameter->choice_unit[1], &value->number[1]);
+  return amount_read(reader, node, parameter->name, parameter->choice_unit[1], &value->number[1]);
 }
 
-bool table_read(struct reading *reading, const struct parameter *parameter, const struct tree *node,
-                struct value *value)
+bool table_read(struct scene_reader *reader, const struct parameter *parameter,
+                const struct tree *node, struct value *value)
 {
   if (node->kind == TREE_MAPPING)
-    return table_from_file(reading, parameter, node, value);
+    return table_from_file(reader, parameter, node, value);
   if (node->kind == TREE_SEQUENCE && node->children)
-    return table_in_place(reading, parameter, node, value);
+    return table_in_place(reader, parameter, node, value);
   if (node->kind == TREE_SCALAR && parameter->choices == 2)
-    return table_of_one(reading, parameter, node, value);
-  blame_value(reading, node, "rows in brackets, or {file: NAME.csv}",
-              "'%s' is %s where a table is due", parameter->name,
-              node->kind == TREE_SEQUENCE ? "an empty list" : "a plain value");
+    return table_of_one(reader, parameter, node, value);
+  error_at_value(reader, node, "rows in brackets, or {file: NAME.csv}",
+                 "'%s' is %s where a table is due", parameter->name,
+                 node->kind == TREE_SEQUENCE ? "an empty list" : "a plain value");
   return false;
 }

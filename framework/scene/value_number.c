@@ -18,7 +18,7 @@ static const char *shortened(const char *text, char *buffer, size_t size)
   return buffer;
 }
 
-static bool not_a_scalar(struct reading *reading, const struct tree *node, const char *name,
+static bool not_a_scalar(struct scene_reader *reader, const struct tree *node, const char *name,
                          const char *unit)
 {
   char expected[160];
@@ -27,8 +27,8 @@ static bool not_a_scalar(struct reading *reading, const struct tree *node, const
   else
     snprintf(expected, sizeof expected, "one number with its unit, such as '%s'",
              unit_example(unit));
-  blame_value(reading, node, expected, "'%s' is %s where a number is due", name,
-              node->kind == TREE_SEQUENCE ? "a vector" : "a mapping");
+  error_at_value(reader, node, expected, "'%s' is %s where a number is due", name,
+                 node->kind == TREE_SEQUENCE ? "a vector" : "a mapping");
   return false;
 }
 
@@ -37,7 +37,7 @@ typedef enum unit_result unit_reader(const struct units *, const char *text, con
 
 /* What hides in text that is no number: a unit without a blank before it, a decimal comma. Writes
  * what should stand there. */
-static void explain_text(const struct reading *reading, const char *text, const char *unit,
+static void explain_text(const struct scene_reader *reader, const char *text, const char *unit,
                          char *words, size_t size)
 {
   char spaced[96], *end;
@@ -51,23 +51,23 @@ static void explain_text(const struct reading *reading, const char *text, const 
   if (number == 0 || number > 31 || digits == strlen(text) || strlen(end) > 31)
     return;
   snprintf(spaced, sizeof spaced, "%.*s %s", (int)number, text, end);
-  if (unit_alike(reading->units, end, unit_is_pure(unit) ? "1" : unit))
+  if (unit_alike(reader->units, end, unit_is_pure(unit) ? "1" : unit))
     snprintf(words, size, "a blank before the unit: '%s'", spaced);
 }
 
-static bool number_read_by(unit_reader *read, struct reading *reading, const struct tree *node,
+static bool number_read_by(unit_reader *read, struct scene_reader *reader, const struct tree *node,
                            const char *name, const char *unit, double *value)
 {
   char text[64], expected[320] = "a number, such as 0.3", due[96];
   if (node->kind != TREE_SCALAR)
-    return not_a_scalar(reading, node, name, unit);
+    return not_a_scalar(reader, node, name, unit);
   bool pure = unit_is_pure(unit);
   const char *words = NULL;
   shortened(node->text, text, sizeof text);
   snprintf(due, sizeof due, "%s", pure ? "" : unit_example(unit));
   if (!pure)
     snprintf(expected, sizeof expected, "a number with a unit like %s, such as '%s'", unit, due);
-  enum unit_result result = read(reading->units, node->text, pure ? "1" : unit, value);
+  enum unit_result result = read(reader->units, node->text, pure ? "1" : unit, value);
   char *after;
   if (result == UNIT_OK && node->quoted) {
     strtod(node->text, &after); /* quotes around a number with a unit do no harm */
@@ -76,16 +76,16 @@ static bool number_read_by(unit_reader *read, struct reading *reading, const str
   }
   switch (result) {
   case UNIT_OK:
-    unit_words_check(reading, node);
+    unit_words_check(reader, node);
     return true;
   case UNIT_NOT_A_NUMBER:
     if (node->text[0] == 0) {
-      blame_value(reading, node, expected, "'%s' has no value", name);
+      error_at_value(reader, node, expected, "'%s' has no value", name);
       return false;
     }
     words = node->quoted ? "is text in quotes, no number" : "is no number";
     if (!node->quoted)
-      explain_text(reading, node->text, unit, expected, sizeof expected);
+      explain_text(reader, node->text, unit, expected, sizeof expected);
     break;
   case UNIT_NAN:
     words = "is no finite number";
@@ -105,23 +105,23 @@ static bool number_read_by(unit_reader *read, struct reading *reading, const str
     words = "has a unit where a pure number is due";
     break;
   }
-  blame_value(reading, node, expected, "%s: '%s' %s", name, text, words);
+  error_at_value(reader, node, expected, "%s: '%s' %s", name, text, words);
   return false;
 }
 
-bool amount_read(struct reading *reading, const struct tree *node, const char *name,
+bool amount_read(struct scene_reader *reader, const struct tree *node, const char *name,
                  const char *unit, double *value)
 {
-  return number_read_by(unit_read, reading, node, name, unit, value);
+  return number_read_by(unit_read, reader, node, name, unit, value);
 }
 
-bool interval_read(struct reading *reading, const struct tree *node, const char *name,
+bool interval_read(struct scene_reader *reader, const struct tree *node, const char *name,
                    const char *unit, double *value)
 {
-  return number_read_by(unit_read_difference, reading, node, name, unit, value);
+  return number_read_by(unit_read_difference, reader, node, name, unit, value);
 }
 
-bool range_check(struct reading *reading, const struct parameter *parameter,
+bool range_check(struct scene_reader *reader, const struct parameter *parameter,
                  const struct tree *node, double value)
 {
   char range[160], words[224];
@@ -130,29 +130,29 @@ bool range_check(struct reading *reading, const struct parameter *parameter,
   if (!range_holds(&parameter->physical, value)) {
     range_text(&parameter->physical, parameter->unit, range, sizeof range);
     snprintf(words, sizeof words, "it must be %s", range);
-    blame_value(reading, node, words, "%s = %.6g%s%s is not possible", parameter->name, value,
-                blank, unit);
+    error_at_value(reader, node, words, "%s = %.6g%s%s is not possible", parameter->name, value,
+                   blank, unit);
     return false;
   }
   if (!range_holds(&parameter->fit, value)) {
     range_text(&parameter->fit, parameter->unit, range, sizeof range);
     snprintf(words, sizeof words, "the fit holds for %s", range);
-    warn_value(reading, node, words, "%s = %.6g%s%s is outside the range of the fit",
+    warn_value(reader, node, words, "%s = %.6g%s%s is outside the range of the fit",
                parameter->name, value, blank, unit);
   }
-  usual_check(reading, parameter, &parameter->usual, node, value);
+  usual_check(reader, parameter, &parameter->usual, node, value);
   return true;
 }
 
-const char *text_read(struct reading *reading, const struct tree *node, const char *name)
+const char *text_read(struct scene_reader *reader, const struct tree *node, const char *name)
 {
   if (node->kind != TREE_SCALAR) {
-    blame_value(reading, node, "one text", "'%s' is %s where a text is due", name,
-                node->kind == TREE_SEQUENCE ? "a list" : "a mapping");
+    error_at_value(reader, node, "one text", "'%s' is %s where a text is due", name,
+                   node->kind == TREE_SEQUENCE ? "a list" : "a mapping");
     return NULL;
   }
   if (node->text[0] == 0) {
-    blame_value(reading, node, "one text", "'%s' has no value", name);
+    error_at_value(reader, node, "one text", "'%s' has no value", name);
     return NULL;
   }
   return node->text;
@@ -170,7 +170,7 @@ static int by_name(const void *one, const void *other)
   return order;
 }
 
-static void blame_twice(struct reading *reading, const struct names *names, const char *name)
+static void error_at_twice(struct scene_reader *reader, const struct names *names, const char *name)
 {
   const struct tree **sorted = scene_take(names->count, sizeof *sorted);
   if (names->count)
@@ -178,30 +178,30 @@ static void blame_twice(struct reading *reading, const struct names *names, cons
   qsort(sorted, names->count, sizeof *sorted, by_name);
   for (size_t i = 1; i < names->count; i++)
     if (strcmp(sorted[i]->text, sorted[i - 1]->text) == 0)
-      blame_value(reading, sorted[i], NULL, "'%s' stands twice in '%s'", sorted[i]->text, name);
+      error_at_value(reader, sorted[i], NULL, "'%s' stands twice in '%s'", sorted[i]->text, name);
   free(sorted);
 }
 
-struct names names_read(struct reading *reading, const struct tree *node, const char *name,
+struct names names_read(struct scene_reader *reader, const struct tree *node, const char *name,
                         size_t most)
 {
   char expected[64];
   size_t items = node->kind == TREE_SEQUENCE ? node->children : 1;
-  struct names names = {scene_keep(reading, items, sizeof *names.name),
-                        scene_keep(reading, items, sizeof *names.node), 0};
+  struct names names = {scene_keep(reader, items, sizeof *names.name),
+                        scene_keep(reader, items, sizeof *names.node), 0};
   if (items > most) {
     snprintf(expected, sizeof expected, "at most %zu", most);
-    blame_value(reading, node, expected, "'%s' has %zu names", name, items);
+    error_at_value(reader, node, expected, "'%s' has %zu names", name, items);
     return names;
   }
   for (size_t i = 0; i < items; i++) {
     const struct tree *item = node->kind == TREE_SEQUENCE ? node->child[i] : node;
-    const char *text = text_read(reading, item, name);
+    const char *text = text_read(reader, item, name);
     if (!text)
       continue;
     names.name[names.count] = text;
     names.node[names.count++] = item;
   }
-  blame_twice(reading, &names, name);
+  error_at_twice(reader, &names, name);
   return names;
 }

@@ -4,15 +4,15 @@
 
 #include "scene/scene_private.h"
 
-static bool choice_read(struct reading *reading, const struct parameter *parameter,
+static bool choice_read(struct scene_reader *reader, const struct parameter *parameter,
                         const struct tree *node, struct value *value)
 {
   char expected[WORDS_SIZE], list[WORDS_SIZE - 64];
   if (node->kind != TREE_SCALAR) {
     snprintf(expected, sizeof expected, "one of: %s",
              list_text(parameter->choice, parameter->choices, list, sizeof list));
-    blame_value(reading, node, expected, "'%s' is %s where one word is due", parameter->name,
-                node->kind == TREE_SEQUENCE ? "a list" : "a mapping");
+    error_at_value(reader, node, expected, "'%s' is %s where one word is due", parameter->name,
+                   node->kind == TREE_SEQUENCE ? "a list" : "a mapping");
     return false;
   }
   for (size_t i = 0; i < parameter->choices; i++)
@@ -21,105 +21,105 @@ static bool choice_read(struct reading *reading, const struct parameter *paramet
       value->real = (double)i;
       return true;
     }
-  blame_value(reading, node,
-              suggest(reading, node->text, parameter->choice, parameter->choices, expected,
-                      sizeof expected),
-              "%s: unknown choice '%.60s'", parameter->name, node->text);
+  error_at_value(
+      reader, node,
+      suggest(reader, node->text, parameter->choice, parameter->choices, expected, sizeof expected),
+      "%s: unknown choice '%.60s'", parameter->name, node->text);
   return false;
 }
 
-static bool boolean_read(struct reading *reading, const struct parameter *parameter,
+static bool boolean_read(struct scene_reader *reader, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
   static const char *const word[] = {"false", "true", "off", "on", "no", "yes"};
-  for (size_t i = 0; i < COUNT_OF(word) && node->kind == TREE_SCALAR; i++)
+  for (size_t i = 0; i < ARRAY_SIZE(word) && node->kind == TREE_SCALAR; i++)
     if (strcmp(word[i], node->text) == 0) {
       value->real = (double)(i % 2);
       return true;
     }
-  blame_value(reading, node, "true or false", "'%s' is neither true nor false", parameter->name);
+  error_at_value(reader, node, "true or false", "'%s' is neither true nor false", parameter->name);
   return false;
 }
 
-static bool real_read(struct reading *reading, const struct parameter *parameter,
+static bool real_read(struct scene_reader *reader, const struct parameter *parameter,
                       const struct tree *node, struct value *value)
 {
   if (node->kind == TREE_MAPPING)
-    return random_read(reading, parameter, node, value);
-  return amount_read(reading, node, parameter->name, parameter->unit, &value->real) &&
-         range_check(reading, parameter, node, value->real);
+    return random_read(reader, parameter, node, value);
+  return amount_read(reader, node, parameter->name, parameter->unit, &value->real) &&
+         range_check(reader, parameter, node, value->real);
 }
 
-static bool integer_read(struct reading *reading, const struct parameter *parameter,
+static bool integer_read(struct scene_reader *reader, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
-  if (!amount_read(reading, node, parameter->name, parameter->unit, &value->real))
+  if (!amount_read(reader, node, parameter->name, parameter->unit, &value->real))
     return false;
   if (fabs(value->real) > 9007199254740992.) {
-    blame_value(reading, node, "a whole number from -2^53 to 2^53",
-                "'%s' is too large for a whole number: '%.60s'", parameter->name, node->text);
+    error_at_value(reader, node, "a whole number from -2^53 to 2^53",
+                   "'%s' is too large for a whole number: '%.60s'", parameter->name, node->text);
     return false;
   }
   if (value->real != nearbyint(value->real)) {
-    blame_value(reading, node, "a whole number", "'%s' is no whole number: '%.60s'",
-                parameter->name, node->text);
+    error_at_value(reader, node, "a whole number", "'%s' is no whole number: '%.60s'",
+                   parameter->name, node->text);
     return false;
   }
-  return range_check(reading, parameter, node, value->real);
+  return range_check(reader, parameter, node, value->real);
 }
 
-static bool numbers_read(struct reading *reading, const struct parameter *parameter,
+static bool numbers_read(struct scene_reader *reader, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
   size_t least = parameter->size_min, most = parameter->size_max;
-  bool spatial = reading->axes > 0 && parameter->size_min == 1 && parameter->size_max == 3;
+  bool spatial = reader->axes > 0 && parameter->size_min == 1 && parameter->size_max == 3;
   if (spatial && node != parameter->standard)
-    least = most = reading->axes; /* a vector of space has the components that the geometry has */
-  value->number = vector_read(reading, node, parameter->name, parameter->unit, least, most,
-                              &value->numbers);
+    least = most = reader->axes; /* a vector of space has the components that the geometry has */
+  value->number =
+      vector_read(reader, node, parameter->name, parameter->unit, least, most, &value->numbers);
   bool fine = value->number != NULL;
   for (size_t i = 0; fine && i < value->numbers; i++)
-    fine = range_check(reading, parameter, node->child[i], value->number[i]);
+    fine = range_check(reader, parameter, node->child[i], value->number[i]);
   return fine;
 }
 
-static bool body_read(struct reading *reading, const struct parameter *parameter,
+static bool body_read(struct scene_reader *reader, const struct parameter *parameter,
                       const struct tree *node, struct value *value)
 {
   char expected[WORDS_SIZE];
-  value->text = text_read(reading, node, parameter->name);
-  if (!value->text || !reading->body ||
-      tree_number(reading->bodies_node, value->text) < reading->bodies)
+  value->text = text_read(reader, node, parameter->name);
+  if (!value->text || !reader->body ||
+      tree_number(reader->bodies_node, value->text) < reader->bodies)
     return value->text != NULL;
-  blame_value(reading, node,
-              suggest_key(reading, value->text, reading->bodies_node, expected, sizeof expected),
-              "unknown body '%s'", value->text);
+  error_at_value(reader, node,
+                 suggest_key(reader, value->text, reader->bodies_node, expected, sizeof expected),
+                 "unknown body '%s'", value->text);
   return false;
 }
 
-static bool formula_read(struct reading *reading, const struct parameter *parameter,
+static bool formula_read(struct scene_reader *reader, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
   char why[256] = "";
-  const char *text = text_read(reading, node, parameter->name);
+  const char *text = text_read(reader, node, parameter->name);
   if (!text)
     return false;
   value->expression = expression_new(text, parameter->choice, parameter->choices, why, sizeof why);
   if (!value->expression)
-    blame_value(reading, node, "arithmetic, such as '2 * x'", "cannot read '%s': %s", text, why);
+    error_at_value(reader, node, "arithmetic, such as '2 * x'", "cannot read '%s': %s", text, why);
   return value->expression != NULL;
 }
 
 /* Members of a group that is not given take their defaults; a group that may be absent asks for
  * none. */
-static bool group_read(struct reading *reading, const struct parameter *parameter,
+static bool group_read(struct scene_reader *reader, const struct parameter *parameter,
                        const struct tree *node, const char *path, bool lenient, struct value *value)
 {
   char below[PATH_SIZE], what[128];
-  size_t faults = reading->faults;
+  size_t faults = reader->faults;
   snprintf(below, sizeof below, "%s%s%s", path, path[0] ? "." : "", parameter->name);
   snprintf(what, sizeof what, "'%s'", parameter->name);
-  if (node && !expect_mapping(reading, node, what))
+  if (node && !expect_mapping(reader, node, what))
     node = NULL;
   struct section section = {.parameter = parameter->member,
                             .count = parameter->members,
@@ -127,39 +127,39 @@ static bool group_read(struct reading *reading, const struct parameter *paramete
                             .path = below,
                             .what = what,
                             .lenient = lenient};
-  value->group = section_read(reading, &section);
-  return reading->faults == faults;
+  value->group = section_read(reader, &section);
+  return reader->faults == faults;
 }
 
-static bool value_read(struct reading *reading, const struct parameter *parameter,
+static bool value_read(struct scene_reader *reader, const struct parameter *parameter,
                        const struct tree *node, const char *path, struct value *value)
 {
   switch (parameter->type) {
   case VALUE_REAL:
-    return real_read(reading, parameter, node, value);
+    return real_read(reader, parameter, node, value);
   case VALUE_INTEGER:
-    return integer_read(reading, parameter, node, value);
+    return integer_read(reader, parameter, node, value);
   case VALUE_BOOLEAN:
-    return boolean_read(reading, parameter, node, value);
+    return boolean_read(reader, parameter, node, value);
   case VALUE_CHOICE:
-    return choice_read(reading, parameter, node, value);
+    return choice_read(reader, parameter, node, value);
   case VALUE_TEXT:
-    value->text = text_read(reading, node, parameter->name);
+    value->text = text_read(reader, node, parameter->name);
     return value->text != NULL;
   case VALUE_VECTOR:
-    return numbers_read(reading, parameter, node, value);
+    return numbers_read(reader, parameter, node, value);
   case VALUE_BODY:
-    return body_read(reading, parameter, node, value);
+    return body_read(reader, parameter, node, value);
   case VALUE_EXPRESSION:
-    return formula_read(reading, parameter, node, value);
+    return formula_read(reader, parameter, node, value);
   case VALUE_TABLE:
-    return table_read(reading, parameter, node, value);
+    return table_read(reader, parameter, node, value);
   case VALUE_LEVELS:
-    return levels_read(reading, parameter, node, value);
+    return levels_read(reader, parameter, node, value);
   case VALUE_PLUGIN:
-    return plugin_read(reading, parameter->kind, node, value);
+    return plugin_read(reader, parameter->kind, node, value);
   case VALUE_GROUP:
-    return group_read(reading, parameter, node, path, false, value);
+    return group_read(reader, parameter, node, path, false, value);
   }
   return false;
 }
@@ -188,11 +188,11 @@ static void group_text(const struct parameter *group, char *expected, size_t siz
   free(name);
 }
 
-static void missing(struct reading *reading, const struct section *section,
+static void missing(struct scene_reader *reader, const struct section *section,
                     const struct parameter *parameter)
 {
   char path[PATH_SIZE], expected[WORDS_SIZE] = "";
-  if (was_meant(reading, section->node, parameter->name))
+  if (is_typo_of(reader, section->node, parameter->name))
     return;
   snprintf(path, sizeof path, "%s%s%s", section->path, section->path[0] ? "." : "",
            parameter->name);
@@ -204,11 +204,11 @@ static void missing(struct reading *reading, const struct section *section,
     group_text(parameter, expected, sizeof expected);
   else if (parameter->doc)
     snprintf(expected, sizeof expected, "%s", parameter->doc);
-  blame_missing(reading, section->node, path, expected[0] ? expected : NULL,
-                "'%s' is missing in %s", parameter->name, section->what);
+  error_at_missing(reader, section->node, path, expected[0] ? expected : NULL,
+                   "'%s' is missing in %s", parameter->name, section->what);
 }
 
-static void parameter_read(struct reading *reading, const struct section *section,
+static void parameter_read(struct scene_reader *reader, const struct section *section,
                            const struct parameter *parameter, struct value *value)
 {
   const struct tree *node = tree_get(section->node, parameter->name);
@@ -218,23 +218,23 @@ static void parameter_read(struct reading *reading, const struct section *sectio
   if (!node)
     node = parameter->standard;
   if (node) {
-    value->present = value_read(reading, parameter, node, section->path, value);
+    value->present = value_read(reader, parameter, node, section->path, value);
     return;
   }
   bool needed = !parameter->optional && !section->lenient;
   if (parameter->type == VALUE_GROUP) {
-    group_read(reading, parameter, NULL, section->path, true, value);
+    group_read(reader, parameter, NULL, section->path, true, value);
     value->present = !parameter->optional && !group_needed(parameter);
     needed = needed && group_needed(parameter);
   }
   if (needed && !given_set_names(section->descriptor, parameter->name))
-    missing(reading, section, parameter);
+    missing(reader, section, parameter);
 }
 
-struct values *section_read(struct reading *reading, const struct section *section)
+struct values *section_read(struct scene_reader *reader, const struct section *section)
 {
   struct values *values = scene_take(1, sizeof *values);
-  bool outside = reading->pointwise;
+  bool outside = reader->pointwise;
   values->parameter = section->parameter;
   values->count = section->count;
   values->value = scene_take(section->count, sizeof *values->value);
@@ -245,16 +245,16 @@ struct values *section_read(struct reading *reading, const struct section *secti
     struct tree *child = section->node->child[i];
     if (!has_name(section->also, section->others, child->key) &&
         !parameter_named(section->parameter, section->count, child->key))
-      blame_unknown(reading, child, section->parameter, section->count, section->also,
-                    section->others, section->what);
+      error_at_unknown(reader, child, section->parameter, section->count, section->also,
+                       section->others, section->what);
   }
   for (size_t i = 0; i < section->count; i++) {
-    reading->pointwise = section->pointwise;
-    parameter_read(reading, section, &section->parameter[i], &values->value[i]);
+    reader->pointwise = section->pointwise;
+    parameter_read(reader, section, &section->parameter[i], &values->value[i]);
   }
-  reading->pointwise = outside;
+  reader->pointwise = outside;
   if (section->descriptor)
-    values_check(reading, values, section->descriptor, section->what);
+    values_check(reader, values, section->descriptor, section->what);
   return values;
 }
 
@@ -264,14 +264,14 @@ gamut_status values_read(const struct descriptor *descriptor, const struct param
                          struct trace *trace, struct values **values)
 {
   char what[160];
-  struct reading reading = {.units = units, .trace = trace, .here = node};
+  struct scene_reader reader = {.units = units, .trace = trace, .here = node};
   bool own = descriptor && parameter == descriptor->parameter;
   *values = NULL;
   if (descriptor)
     snprintf(what, sizeof what, "%s '%s'", kind_name(descriptor->kind), descriptor->name);
   else
     snprintf(what, sizeof what, "'%s'", path);
-  if (node && !expect_mapping(&reading, node, what))
+  if (node && !expect_mapping(&reader, node, what))
     return GAMUT_SCENE;
   struct section section = {own ? descriptor : NULL,
                             parameter,
@@ -284,12 +284,12 @@ gamut_status values_read(const struct descriptor *descriptor, const struct param
                             false,
                             false,
                             false};
-  *values = section_read(&reading, &section);
-  if (reading.faults) {
+  *values = section_read(&reader, &section);
+  if (reader.faults) {
     values_free(*values);
     *values = NULL;
   }
-  return reading.first;
+  return reader.first;
 }
 
 void values_free(struct values *values)

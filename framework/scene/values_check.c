@@ -50,15 +50,15 @@ static void numbers_free(struct numbers *n)
 }
 
 /* Value of an expression; false where something that it uses has no value. */
-static bool evaluate(struct reading *reading, const struct numbers *n, const char *text,
+static bool evaluate(struct scene_reader *reader, const struct numbers *n, const char *text,
                      const char *what, struct expression **expression, double *result)
 {
   char why[256] = "";
   *expression = expression_new(text, n->name, n->count, why, sizeof why);
   if (!*expression) {
-    reading->first = reading->first ? reading->first : GAMUT_PLUGIN;
-    reading->faults++;
-    trace_fail(reading->trace, GAMUT_PLUGIN, "%s: cannot read '%s': %s", what, text, why);
+    reader->first = reader->first ? reader->first : GAMUT_PLUGIN;
+    reader->faults++;
+    trace_fail(reader->trace, GAMUT_PLUGIN, "%s: cannot read '%s': %s", what, text, why);
     return false;
   }
   for (size_t i = 0; i < n->count; i++)
@@ -106,8 +106,8 @@ const struct given_set *given_set_chosen(const struct values *values,
   return descriptor && descriptor->givens ? choose(values, descriptor, &given) : NULL;
 }
 
-static void blame_sets(struct reading *reading, struct values *values,
-                       const struct descriptor *descriptor, size_t given, const char *what)
+static void error_at_sets(struct scene_reader *reader, struct values *values,
+                          const struct descriptor *descriptor, size_t given, const char *what)
 {
   char list[WORDS_SIZE] = "", one[WORDS_SIZE];
   const char *names[16];
@@ -119,8 +119,8 @@ static void blame_sets(struct reading *reading, struct values *values,
     length += (size_t)snprintf(list + length, sizeof list - length, "%s[%s]",
                                i ? " or " : "give one of the sets ", one);
   }
-  for (size_t i = 0; i < values->count && count < COUNT_OF(names); i++)
-    if (was_meant(reading, values->node, values->parameter[i].name) &&
+  for (size_t i = 0; i < values->count && count < ARRAY_SIZE(names); i++)
+    if (is_typo_of(reader, values->node, values->parameter[i].name) &&
         given_set_names(descriptor, values->parameter[i].name)) {
       return;
     } else if (values->value[i].given && given_set_names(descriptor, values->parameter[i].name)) {
@@ -129,13 +129,13 @@ static void blame_sets(struct reading *reading, struct values *values,
     }
   list_text(names, count, one, sizeof one);
   if (given == 0)
-    blame_missing(reading, values->node, values->path, list, "%s lacks parameters", what);
+    error_at_missing(reader, values->node, values->path, list, "%s lacks parameters", what);
   else
-    blame_key(reading, last, list, "%s: %s %s no set that it knows", what, one,
-              given > 1 ? "together are" : "alone is");
+    error_at_key(reader, last, list, "%s: %s %s no set that it knows", what, one,
+                 given > 1 ? "together are" : "alone is");
 }
 
-static void derive(struct reading *reading, struct values *values,
+static void derive(struct scene_reader *reader, struct values *values,
                    const struct descriptor *descriptor, const char *what)
 {
   size_t given;
@@ -148,7 +148,7 @@ static void derive(struct reading *reading, struct values *values,
   const struct given_set *set = choose(values, descriptor, &given);
   if (!set) {
     if (given || !all_optional)
-      blame_sets(reading, values, descriptor, given, what);
+      error_at_sets(reader, values, descriptor, given, what);
     return;
   }
   for (size_t k = 0; k < set->derivations; k++) {
@@ -156,9 +156,9 @@ static void derive(struct reading *reading, struct values *values,
     struct expression *expression = NULL;
     struct numbers n = numbers_of(values);
     double result;
-    if (value && evaluate(reading, &n, set->formula[k], what, &expression, &result)) {
+    if (value && evaluate(reader, &n, set->formula[k], what, &expression, &result)) {
       value->real = result;
-      value->present = range_check(reading, value->parameter, values->node, result);
+      value->present = range_check(reader, value->parameter, values->node, result);
     }
     expression_free(expression);
     numbers_free(&n);
@@ -186,7 +186,7 @@ static const struct tree *compared(const struct numbers *n, const struct express
   return node;
 }
 
-static void constrain(struct reading *reading, struct values *values,
+static void constrain(struct scene_reader *reader, struct values *values,
                       const struct descriptor *descriptor, const char *what)
 {
   struct numbers n = numbers_of(values);
@@ -194,28 +194,28 @@ static void constrain(struct reading *reading, struct values *values,
   for (size_t i = 0; i < descriptor->constraints; i++) {
     struct expression *expression;
     double holds = 1;
-    if (evaluate(reading, &n, descriptor->constraint[i], what, &expression, &holds) &&
+    if (evaluate(reader, &n, descriptor->constraint[i], what, &expression, &holds) &&
         !(holds != 0 && !isnan(holds))) {
       const struct tree *node = compared(&n, expression, list, sizeof list);
       snprintf(expected, sizeof expected, "%s asks for %s", what, descriptor->constraint[i]);
-      blame_value(reading, node ? node : values->node, expected, "%s is not possible", list);
+      error_at_value(reader, node ? node : values->node, expected, "%s is not possible", list);
     }
     expression_free(expression);
   }
   numbers_free(&n);
 }
 
-void values_check(struct reading *reading, struct values *values,
+void values_check(struct scene_reader *reader, struct values *values,
                   const struct descriptor *descriptor, const char *what)
 {
-  derive(reading, values, descriptor, what);
-  constrain(reading, values, descriptor, what);
+  derive(reader, values, descriptor, what);
+  constrain(reader, values, descriptor, what);
 }
 
 bool values_conflict(struct values *values, const struct descriptor *descriptor, char *conflict,
                      size_t size)
 {
-  struct reading unheard = {.here = values->node};
+  struct scene_reader unheard = {.here = values->node};
   derive(&unheard, values, descriptor, "");
   bool found = unheard.faults > 0;
   if (found)
@@ -239,11 +239,11 @@ gamut_status values_set(struct values *values, const struct descriptor *descript
 {
   char what[160];
   struct value *value = &values->value[parameter];
-  struct reading reading = {.trace = trace, .here = values->node};
+  struct scene_reader reader = {.trace = trace, .here = values->node};
   snprintf(what, sizeof what, "%s '%s'", kind_name(descriptor->kind), descriptor->name);
   value->real = real;
-  value->present = range_check(&reading, value->parameter, value->node, real);
+  value->present = range_check(&reader, value->parameter, value->node, real);
   if (value->present)
-    values_check(&reading, values, descriptor, what);
-  return reading.first;
+    values_check(&reader, values, descriptor, what);
+  return reader.first;
 }

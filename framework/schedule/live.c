@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "schedule/schedule_private.h"
 
 static void enliven(struct task *task, const char *format, ...)

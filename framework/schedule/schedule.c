@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "schedule/schedule_private.h"
 
 struct schedule *schedule_new(const char *const *phase, size_t phases)

@@ -4,9 +4,9 @@
 #ifndef GAMUT_SCHEDULE_H
 #define GAMUT_SCHEDULE_H
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
-#include "error/error.h"
+#include "base/error.h"
 #include "field/field.h"
 
 struct task {

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "error/exclusive.h"
+#include "base/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"

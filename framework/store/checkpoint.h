@@ -10,7 +10,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "error/error.h"
+#include "base/error.h"
 
 #define CHECKPOINT_FILE "checkpoint.h5"
 #define CHECKPOINT_PREVIOUS "checkpoint.previous.h5"

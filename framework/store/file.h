@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "error/error.h"
+#include "base/error.h"
 
 /* "FOLDER/NAME", allocated; null when out of memory. */
 char *file_path(const char *folder, const char *name);

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/array.h"
 #include "store/checkpoint.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -14,7 +15,7 @@
 static const char *const result_files[] = {
     RESULT_HDF5, RESULT_XDMF,     RESULT_HISTORY,      RESULT_SCENE,  RESULT_STUDY,
     RESULT_LOG,  CHECKPOINT_FILE, CHECKPOINT_PREVIOUS, RESULT_SUMMARY};
-enum { RESULT_FILES = sizeof result_files / sizeof result_files[0] };
+enum { RESULT_FILES = ARRAY_SIZE(result_files) };
 
 static bool folder_has(const char *folder, const char *name)
 {
@@ -34,7 +35,7 @@ static const char *const partial_files[] = {
     RESULT_SCENE FILE_PARTIAL,
     RESULT_LOG FILE_PARTIAL,
     RESULT_STUDY FILE_PARTIAL};
-enum { PARTIAL_FILES = sizeof partial_files / sizeof partial_files[0] };
+enum { PARTIAL_FILES = ARRAY_SIZE(partial_files) };
 
 /* Name of the first file of a result that the folder holds, or null. */
 static const char *former_file(const char *folder)

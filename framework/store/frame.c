@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/exclusive.h"
+#include "base/exclusive.h"
 #include "field/catalogue.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"

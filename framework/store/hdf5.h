@@ -7,7 +7,7 @@
 
 #include <hdf5.h>
 
-#include "error/error.h"
+#include "base/error.h"
 
 /* Records GAMUT_OUTPUT with the innermost reason of HDF5's error stack ("No space left on device").
  */

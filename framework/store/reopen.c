@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/exclusive.h"
+#include "base/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"

@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/exclusive.h"
-#include "error/memory.h"
+#include "base/exclusive.h"
+#include "base/memory.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/exclusive.h"
-#include "error/memory.h"
+#include "base/exclusive.h"
+#include "base/memory.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/store_private.h"

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/exclusive.h"
+#include "base/array.h"
+#include "base/exclusive.h"
 #include "store/checksum.h"
 #include "store/file.h"
 #include "store/hdf5.h"
@@ -162,7 +163,7 @@ static herr_t write_curve(hid_t parent, const struct table_curve *curve)
   herr_t result = hdf5_text_attribute(at, "axis", curve->axis);
   if (result >= 0 && curve->meaning)
     result = hdf5_text_attribute(at, "meaning", curve->meaning);
-  for (size_t i = 0; result >= 0 && i < sizeof part / sizeof part[0]; i++)
+  for (size_t i = 0; result >= 0 && i < ARRAY_SIZE(part); i++)
     result = write_reals(at, part[i].name, part[i].unit, part[i].meaning, curve->count, 1,
                          part[i].value);
   if (result >= 0 && curve->runs > 0)
@@ -195,7 +196,7 @@ static gamut_status write_curves_csv(struct store *store, const struct table_cur
       text_cell(&text, curve[k].name);
       text_add(&text, ",");
       text_cell(&text, curve[k].unit);
-      for (size_t p = 0; p < sizeof number / sizeof number[0]; p++) {
+      for (size_t p = 0; p < ARRAY_SIZE(number); p++) {
         text_add(&text, ",");
         if (isfinite(number[p])) /* what is not known is left out */
           text_number(&text, number[p]);

@@ -1,7 +1,7 @@
 /* In place of a run or a study: what is known of it before its first step. */
 #include <stdlib.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "study/study_private.h"
 
 static gamut_status check_run(struct scene *scene, struct registry *registry, struct trace *trace)

@@ -1,7 +1,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "study/study_private.h"
 
 static const struct value *levels_of(const struct study *study)

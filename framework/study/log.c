@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "store/file.h"
 #include "study/study_private.h"
 

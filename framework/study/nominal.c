@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "study/study_private.h"
 
 /* The folder is taken before the first run; results.h5 is closed meanwhile, so that whatever ends

@@ -1,20 +1,13 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 #ifdef _OPENMP
 #include <omp.h>
 #endif
 
+#include "base/clock.h"
 #include "registry/guard.h"
 #include "study/study_private.h"
-
-static double now(void)
-{
-  struct timespec time;
-  clock_gettime(CLOCK_MONOTONIC, &time);
-  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
-}
 
 bool study_wanted(const struct scene *scene)
 {
@@ -321,11 +314,11 @@ static void warn_of_sameness(const struct study *study)
 gamut_status study_run(struct study *study, const char *folder, struct trace *trace)
 {
   gamut_status status;
-  double begun = now();
+  double begun = clock_seconds(CLOCK_MONOTONIC);
   study->trace = trace;
   TRY(nominal_prepare(study, folder));
   status = run_batches(study);
-  study->wall = now() - begun;
+  study->wall = clock_seconds(CLOCK_MONOTONIC) - begun;
   warn_of_sameness(study);
   if (study->warned)
     trace_warn_at(trace, NULL, NULL, NULL, "%zu of %zu runs had warnings; one of them: %s",

@@ -1,17 +1,10 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-#include "error/memory.h"
+#include "base/clock.h"
+#include "base/memory.h"
 #include "study/study_private.h"
-
-static double clock_now(clockid_t clock)
-{
-  struct timespec now;
-  clock_gettime(clock, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
 
 bool outcome_room(struct study *study, struct outcome *outcome)
 {
@@ -139,7 +132,7 @@ gamut_status work_run(struct study *study, struct worker *worker, struct outcome
   gamut_status status = GAMUT_INTERNAL;
   struct gamut_run *run = NULL;
   struct trace *trace = trace_new();
-  double wall = clock_now(CLOCK_MONOTONIC), cpu = clock_now(CLOCK_THREAD_CPUTIME_ID);
+  double wall = clock_seconds(CLOCK_MONOTONIC), cpu = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
   for (size_t i = 0; i < study->values; i++)
     outcome->value[i] = NAN;
   if (trace)
@@ -159,8 +152,8 @@ gamut_status work_run(struct study *study, struct worker *worker, struct outcome
   run_free(run);
   take_warning(study, trace);
   trace_free(trace);
-  outcome->wall = clock_now(CLOCK_MONOTONIC) - wall;
-  outcome->cpu = clock_now(CLOCK_THREAD_CPUTIME_ID) - cpu;
+  outcome->wall = clock_seconds(CLOCK_MONOTONIC) - wall;
+  outcome->cpu = clock_seconds(CLOCK_THREAD_CPUTIME_ID) - cpu;
   outcome->done = status == GAMUT_OK;
   return status;
 }

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/memory.h"
+#include "base/memory.h"
 #include "tree/tree_private.h"
 
 /* Gives `base` the content of `over` and keeps its seat in the parent and its key; frees the old.

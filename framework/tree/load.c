@@ -1,5 +1,6 @@
 #define _GNU_SOURCE /* O_CLOEXEC */
 #include "tree/load.h"
+#include "base/array.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -19,7 +20,7 @@ static const char *other_kind(mode_t mode)
                {S_IFCHR, "a device"},
                {S_IFBLK, "a device"},
                {S_IFSOCK, "a socket"}};
-  for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+  for (size_t k = 0; k < ARRAY_SIZE(kinds); k++)
     if ((mode & S_IFMT) == kinds[k].kind)
       return kinds[k].words;
   return S_ISREG(mode) ? NULL : "something else";

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-#include "error/error.h"
+#include "base/error.h"
 
 /* Reads a regular file of at most `most` bytes; a link to one will do. Anything else is refused
  * without waiting for it: a named pipe would block, a device never end. *text is allocated, with a

@@ -1,4 +1,5 @@
 #include "tree/problem.h"
+#include "base/array.h"
 
 #include <string.h>
 
@@ -47,7 +48,7 @@ static const struct wording wordings[] = {
 
 static const struct wording *wording_of(const yaml_parser_t *parser)
 {
-  for (size_t k = 0; k < sizeof wordings / sizeof *wordings; k++)
+  for (size_t k = 0; k < ARRAY_SIZE(wordings); k++)
     if (strcmp(parser->problem, wordings[k].problem) == 0 &&
         (wordings[k].context == NULL ||
          (parser->context != NULL && strcmp(parser->context, wordings[k].context) == 0)))

@@ -1,5 +1,6 @@
 #include <string.h>
 
+#include "base/array.h"
 #include "unit/unit.h"
 
 const char *unit_example(const char *unit)
@@ -46,7 +47,7 @@ const char *unit_example(const char *unit)
       {"rad", "45 degree"},
       {"rad/s", "100 rad/s"},
   };
-  for (size_t k = 0; k < sizeof examples / sizeof *examples; k++)
+  for (size_t k = 0; k < ARRAY_SIZE(examples); k++)
     if (strcmp(unit, examples[k][0]) == 0)
       return examples[k][1];
   return unit;

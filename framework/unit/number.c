@@ -1,4 +1,5 @@
 #include "unit/number.h"
+#include "base/array.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -23,7 +24,7 @@ static bool is_no_finite_word(const char *word, size_t length)
   static const char *const words[] = {"nan", "inf", "infinity"};
   for (; length > 0 && (*word == '+' || *word == '-' || *word == '.'); length--)
     word++;
-  for (size_t k = 0; k < sizeof words / sizeof *words; k++)
+  for (size_t k = 0; k < ARRAY_SIZE(words); k++)
     if (strlen(words[k]) == length && strncasecmp(word, words[k], length) == 0)
       return true;
   return false;

@@ -6,7 +6,7 @@
 
 #include <udunits2.h>
 
-#include "error/exclusive.h"
+#include "base/exclusive.h"
 #include "unit/number.h"
 
 /* UDUNITS parses with static variables and reads numbers by the locale of the thread: `enter` and

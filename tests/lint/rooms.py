@@ -6,7 +6,7 @@ import re
 import tap
 
 # The one place where the order is written, lowest first.
-ROOMS = """error exact unit tree expression descriptor registry random scene field schedule material
+ROOMS = """base exact unit tree expression descriptor registry random scene field schedule material
 quantity store run study embed report conformance command""".split()
 # Rooms may use these although they stand in a higher room: tables with no code behind them.
 SHARED = {"field/catalogue.h"}

@@ -84,7 +84,7 @@ for folder in sorted({"/".join(p.split("/")[:3])
     paths = tap.files(folder, suffixes=(".c", ".h"))
     headers = "\n".join(tap.read(path) for path in paths if path.endswith(".h"))
     for path in paths:
-        found += [f"{path}:{number}: call sum of <gamut/run.h>"
+        found += [f"{path}:{number}: call sum of <gamut/host.h>"
                   for number in sums(tap.read(path), headers)]
 tap.check("solvers and effects add over blocks by sum", found)
 tap.check("and the check finds those that do not",

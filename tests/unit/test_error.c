@@ -1,4 +1,4 @@
-#include "error/error.h"
+#include "base/error.h"
 
 #include <pthread.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef GAMUT_ESTIMATOR_H
 #define GAMUT_ESTIMATOR_H
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 /* A batch of runs to make. The estimator fixes its size; decisions fall only between batches, so a
  * study gives the same tables for any number of threads. Arrays are owned by the core. */

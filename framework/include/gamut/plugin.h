@@ -7,7 +7,7 @@
  *   GAMUT_EOS(linear, .pressure = pressure)
  *
  * A plugin links to nothing of gamut: what it may ask of the core comes through the functions of
- * <gamut/run.h>, which call a table that the core hands over. It exports one symbol.
+ * <gamut/host.h>, which call a table that the core hands over. It exports one symbol.
  */
 #ifndef GAMUT_PLUGIN_H
 #define GAMUT_PLUGIN_H
@@ -19,9 +19,9 @@
 
 #include <gamut/block.h>
 #include <gamut/estimator.h>
+#include <gamut/host.h>
 #include <gamut/math.h>
 #include <gamut/random_field.h>
-#include <gamut/run.h>
 #include <gamut/solver.h>
 #include <gamut/status.h>
 

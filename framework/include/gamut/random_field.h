@@ -3,7 +3,7 @@
 #ifndef GAMUT_RANDOM_FIELD_H
 #define GAMUT_RANDOM_FIELD_H
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 #define GAMUT_RANDOM_FIELD_OPS(B)                                                                  \
   gamut_status (*create)(struct gamut_run *, const struct gamut_values *, void **self);            \

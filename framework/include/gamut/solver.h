@@ -7,7 +7,7 @@
 #ifndef GAMUT_SOLVER_H
 #define GAMUT_SOLVER_H
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 #define GAMUT_SOLVER_OPS(B)                                                                        \
   /* required. Reads its values and the bodies, makes sets, registers fields, tasks, ledger lines. \

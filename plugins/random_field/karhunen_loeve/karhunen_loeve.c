@@ -12,7 +12,7 @@ struct field {
   struct noise noise; /* distribution of the values */
   struct ensemble ensemble;
   struct table table;
-  atomic_flag told; /* what a user must know is said once */
+  atomic_flag reported; /* what a user must know is said once */
 };
 
 static gamut_status read_domain(struct field *field, const struct gamut_values *values)
@@ -177,7 +177,7 @@ static gamut_status sample_expansion(struct field *field, const struct gamut_str
   gamut_status status = check_places(field, count, position, id);
   if (status != GAMUT_OK)
     return status;
-  if (2 * modes > count && count > 1 && !atomic_flag_test_and_set(&field->told))
+  if (2 * modes > count && count > 1 && !atomic_flag_test_and_set(&field->reported))
     gamut_warn(field->run,
                "random_field/karhunen_loeve: %zu points for a field of %zu modes: the correlation "
                "length is near or below their spacing, which does not resolve the field",
@@ -221,7 +221,7 @@ static gamut_status sample_ensemble(struct field *field, const struct gamut_stre
                         (long long)report.twice);
     return gamut_fail(field->run, GAMUT_INTERNAL, "no memory for the ensemble of a random field");
   }
-  if (!atomic_flag_test_and_set(&field->told))
+  if (!atomic_flag_test_and_set(&field->reported))
     GAMUT_HOST(field->run)
         ->note(field->run,
                "random_field/karhunen_loeve: %zu of %zu modes hold "

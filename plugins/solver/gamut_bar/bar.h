@@ -191,7 +191,7 @@ gamut_status measure_bar(void *self, const char *name, const struct gamut_body *
 /* gamuts.c: deformation-gamuts, J/m3; NaN for laws other than Ramberg and Osgood's. */
 double nonlocal_gamut(const struct bar *, size_t bond);
 double local_gamut(const struct bar *, size_t bond);
-/* show.c: fields at points. */
+/* bond_fields.c: fields at points. */
 gamut_status show_new(struct bar *);
 void show_start(struct bar *);
 void show_positions(struct bar *);

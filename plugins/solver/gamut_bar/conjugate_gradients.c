@@ -1,6 +1,7 @@
 /* Newton's linear system in its symmetric, positive form: (1 - c H c) x = c b with H = w Q w
  * (scaled by V^1/2), c = sqrt(slope). Its eigenvalues lie between the least E_t / E and 1, whatever
- * the number of bonds. */
+ * the number of bonds. Letters of the method of conjugate gradients as in Golub and Van Loan,
+ * Matrix Computations: residual r, direction p, its image Ap, rho = r.r, steps alpha and beta. */
 #include "bar.h"
 
 static void apply_stiffness(struct bar *bar, const double *x, double *y)
@@ -31,40 +32,40 @@ gamut_status solve_tangent(struct bar *bar, const double *slope, double *right, 
   enum { ROUNDS = 2000 };
   static const double enough = 1e-9;
   size_t n = bar->bonds;
-  double *c = bar->work[2], *rest = bar->work[3], *way = bar->work[4], *image = bar->work[5];
+  double *c = bar->work[2], *r = bar->work[3], *p = bar->work[4], *Ap = bar->work[5];
   for (size_t i = 0; i < n; i++) {
     c[i] = sqrt(slope[i]);
     x[i] = 0.0;
     right[i] *= sqrt(bar->volume[i]);
-    rest[i] = way[i] = c[i] * right[i];
+    r[i] = p[i] = c[i] * right[i];
   }
-  double now = sum_of_products(n, rest, rest), target = enough * enough * now;
-  for (int round = 0; round < ROUNDS && now > target; round++) {
-    apply_softening(bar, c, way, image);
+  double rho = sum_of_products(n, r, r), target = enough * enough * rho;
+  for (int round = 0; round < ROUNDS && rho > target; round++) {
+    apply_softening(bar, c, p, Ap);
 #pragma omp simd
     for (size_t i = 0; i < n; i++)
-      image[i] = way[i] - c[i] * image[i];
-    double share = now / sum_of_products(n, way, image), before = now;
+      Ap[i] = p[i] - c[i] * Ap[i];
+    double alpha = rho / sum_of_products(n, p, Ap), before = rho;
 #pragma omp simd
     for (size_t i = 0; i < n; i++) {
-      x[i] += share * way[i];
-      rest[i] -= share * image[i];
+      x[i] += alpha * p[i];
+      r[i] -= alpha * Ap[i];
     }
-    now = sum_of_products(n, rest, rest);
-    double ratio = now / before;
+    rho = sum_of_products(n, r, r);
+    double beta = rho / before;
 #pragma omp simd
     for (size_t i = 0; i < n; i++)
-      way[i] = rest[i] + ratio * way[i];
+      p[i] = r[i] + beta * p[i];
     bar->iterations++;
   }
-  if (!(now <= target))
+  if (!(rho <= target))
     return gamut_fail(bar->run, GAMUT_NUMERICS,
                       "the tangent system is not solved at load step %llu: %g of the residual is "
                       "left",
-                      (unsigned long long)bar->load.step, sqrt(now / target) * enough);
+                      (unsigned long long)bar->load.step, sqrt(rho / target) * enough);
   /* From the scaled unknown to the increment of T. */
-  apply_softening(bar, c, x, image);
+  apply_softening(bar, c, x, Ap);
   for (size_t i = 0; i < n; i++)
-    x[i] = (right[i] + image[i]) / sqrt(bar->volume[i]);
+    x[i] = (right[i] + Ap[i]) / sqrt(bar->volume[i]);
   return GAMUT_OK;
 }

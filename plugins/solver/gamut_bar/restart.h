@@ -2,7 +2,7 @@
 #ifndef GAMUT_BAR_RESTART_H
 #define GAMUT_BAR_RESTART_H
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 size_t bar_save(const void *self, void *bytes);
 gamut_status bar_restore(void *self, const void *bytes, size_t size);

@@ -19,7 +19,7 @@ static bool keeps_momentum(const struct model *m, unsigned k)
   return m->geometry == GEOMETRY_AXISYMMETRIC ? k == 1 : k < m->dimension;
 }
 
-static bool keeps_spin(const struct model *m, unsigned k)
+static bool keeps_angular_momentum(const struct model *m, unsigned k)
 {
   return m->geometry == GEOMETRY_3D || (m->geometry == GEOMETRY_PLANE_STRAIN && k == 2);
 }
@@ -33,8 +33,8 @@ static gamut_status line(struct model *m, const char *account, const char *name,
 static gamut_status open_motion(struct model *m, unsigned k)
 {
   static const char *const momentum[3] = {"momentum_x", "momentum_y", "momentum_z"};
-  static const char *const spin[3] = {"angular_momentum_x", "angular_momentum_y",
-                                      "angular_momentum_z"};
+  static const char *const angular_momentum[3] = {"angular_momentum_x", "angular_momentum_y",
+                                                  "angular_momentum_z"};
   struct ledger *l = &m->ledger;
   gamut_status status = GAMUT_OK;
   if (keeps_momentum(m, k)) {
@@ -49,8 +49,8 @@ static gamut_status open_motion(struct model *m, unsigned k)
     if (status == GAMUT_OK)
       status = line(m, a, "planes, backward", unit, GAMUT_SUPPLIED, &l->plane_backward[k]);
   }
-  if (keeps_spin(m, k) && status == GAMUT_OK) {
-    const char *a = spin[k], *unit = "kg m2/s";
+  if (keeps_angular_momentum(m, k) && status == GAMUT_OK) {
+    const char *a = angular_momentum[k], *unit = "kg m2/s";
     status = line(m, a, "forward", unit, GAMUT_STORED, &l->round[k]);
     if (status == GAMUT_OK)
       status = line(m, a, "backward", unit, GAMUT_STORED, &l->back_round[k]);
@@ -61,7 +61,7 @@ static gamut_status open_motion(struct model *m, unsigned k)
     if (status == GAMUT_OK)
       status = line(m, a, "planes, backward", unit, GAMUT_SUPPLIED, &l->plane_back_round[k]);
     if (status == GAMUT_OK)
-      status = line(m, a, "gather loss", unit, GAMUT_LOST, &l->spin_loss[k]);
+      status = line(m, a, "gather loss", unit, GAMUT_LOST, &l->angular_momentum_loss[k]);
   }
   return status;
 }
@@ -94,16 +94,17 @@ gamut_status ledger_open(struct model *m)
 gamut_status ledger_open_taker(struct model *m, struct taker *t)
 {
   static const char *const momentum[3] = {"momentum_x", "momentum_y", "momentum_z"};
-  static const char *const spin[3] = {"angular_momentum_x", "angular_momentum_y",
-                                      "angular_momentum_z"};
+  static const char *const angular_momentum[3] = {"angular_momentum_x", "angular_momentum_y",
+                                                  "angular_momentum_z"};
   gamut_status status = line(m, "mass", t->name, "kg", GAMUT_LOST, &t->mass_line);
   if (status == GAMUT_OK)
     status = line(m, "energy", t->name, "J", GAMUT_LOST, &t->energy_line);
   for (unsigned k = 0; k < 3; k++) {
     if (keeps_momentum(m, k) && status == GAMUT_OK)
       status = line(m, momentum[k], t->name, "kg m/s", GAMUT_LOST, &t->momentum_line[k]);
-    if (keeps_spin(m, k) && status == GAMUT_OK)
-      status = line(m, spin[k], t->name, "kg m2/s", GAMUT_LOST, &t->spin_line[k]);
+    if (keeps_angular_momentum(m, k) && status == GAMUT_OK)
+      status = line(m, angular_momentum[k], t->name, "kg m2/s", GAMUT_LOST,
+                    &t->angular_momentum_line[k]);
   }
   return status;
 }
@@ -118,8 +119,8 @@ static void show_taken(const struct model *m)
     for (unsigned k = 0; k < 3; k++) {
       if (t->momentum_line[k] != NULL)
         *t->momentum_line[k] = t->total.momentum[k];
-      if (t->spin_line[k] != NULL)
-        *t->spin_line[k] = t->spin[k];
+      if (t->angular_momentum_line[k] != NULL)
+        *t->angular_momentum_line[k] = t->angular_momentum[k];
     }
   }
 }
@@ -142,7 +143,7 @@ static void show_stored(struct model *m)
     }
     if (l->round[k] != NULL) {
       *l->round[k] = l->now[SUM_ROUND + k];
-      *l->back_round[k] = l->now[SUM_SPIN + k] - l->now[SUM_ROUND + k];
+      *l->back_round[k] = l->now[SUM_ANGULAR_MOMENTUM + k] - l->now[SUM_ROUND + k];
     }
   }
 }
@@ -167,12 +168,12 @@ void ledger_keep(struct model *m, double step)
   *l->external_work += external;
   *l->plane_work += m->planes.work;
   *l->impact_loss += m->planes.loss;
-  *l->scatter_loss += was[SUM_KINETIC] - m->nodes.sum[NODE_BEFORE];
-  *l->gather_loss += m->nodes.sum[NODE_AFTER] - (l->now[SUM_KINETIC] + gone[GONE_KINETIC]);
+  *l->scatter_loss += was[SUM_KINETIC] - m->nodes.sum[TOTAL_BEFORE];
+  *l->gather_loss += m->nodes.sum[TOTAL_AFTER] - (l->now[SUM_KINETIC] + gone[GONE_KINETIC]);
   const double gain = l->now[SUM_INTERNAL] + gone[GONE_INTERNAL] - was[SUM_INTERNAL];
   const double stagger = *l->stagger;
   *l->stagger = -0.5 * gain;
-  *l->remainder += external - m->nodes.sum[NODE_WORK] - gain - (*l->stagger - stagger);
+  *l->remainder += external - m->nodes.sum[TOTAL_WORK] - gain - (*l->stagger - stagger);
   for (unsigned k = 0; k < 3; k++) {
     if (l->forward[k] != NULL) {
       *l->external_impulse[k] += step * was[SUM_FORCE + k];
@@ -183,8 +184,8 @@ void ledger_keep(struct model *m, double step)
       *l->external_torque[k] += step * was[SUM_TORQUE + k];
       *l->plane_round[k] += m->planes.round[k];
       *l->plane_back_round[k] += m->planes.back_round[k];
-      const double back = l->now[SUM_SPIN + k] + gone[GONE_SPIN + k];
-      *l->spin_loss[k] += m->nodes.sum[NODE_SPIN + k] - back;
+      const double back = l->now[SUM_ANGULAR_MOMENTUM + k] + gone[GONE_ANGULAR_MOMENTUM + k];
+      *l->angular_momentum_loss[k] += m->nodes.sum[TOTAL_ANGULAR_MOMENTUM + k] - back;
     }
   }
 }

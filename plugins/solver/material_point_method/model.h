@@ -27,9 +27,9 @@ enum rule { RULE_FLIP, RULE_PIC, RULE_APIC, RULE_XPIC };
 enum point_sum {
   SUM_MASS,
   SUM_MOMENTUM,
-  SUM_FORWARD = SUM_MOMENTUM + 3, /* the positive parts of it */
-  SUM_SPIN = SUM_FORWARD + 3,     /* moment of momentum about the origin */
-  SUM_ROUND = SUM_SPIN + 3,       /* the positive parts of it */
+  SUM_FORWARD = SUM_MOMENTUM + 3,         /* the positive parts of it */
+  SUM_ANGULAR_MOMENTUM = SUM_FORWARD + 3, /* moment of momentum about the origin */
+  SUM_ROUND = SUM_ANGULAR_MOMENTUM + 3,   /* the positive parts of it */
   SUM_KINETIC = SUM_ROUND + 3,
   SUM_INTERNAL,
   SUM_FORCE, /* external */
@@ -64,7 +64,7 @@ struct ledger {
   double *forward[3], *backward[3], *round[3], *back_round[3];
   double *external_work, *plane_work, *impact_loss, *scatter_loss, *gather_loss, *remainder;
   double *external_impulse[3], *plane_forward[3], *plane_backward[3];
-  double *external_torque[3], *plane_round[3], *plane_back_round[3], *spin_loss[3];
+  double *external_torque[3], *plane_round[3], *plane_back_round[3], *angular_momentum_loss[3];
 };
 
 struct fields {
@@ -118,7 +118,7 @@ struct model {
 
   double *block_sum; /* POINT_SUMS a block of points */
   struct block_most *block_most;
-  double *node_sum;   /* NODE_SUMS a block of nodes */
+  double *node_sum;   /* TOTAL_SUMS a block of nodes */
   double *node_speed; /* one a block of nodes */
   struct totals totals;
   struct nodes nodes; /* of the last update */

@@ -30,10 +30,14 @@ static void pass(struct archive *a, void *data, size_t bytes)
 /* Bytes from one build are nothing to another that lays its memory out otherwise. */
 static void pass_layout(const struct model *m, struct archive *a)
 {
-  const uint64_t own[] = {sizeof(struct node_block), sizeof(struct source),
-                          sizeof(struct nodes),      POINT_SUMS,
-                          LINE,                      m->grid.tile_nodes,
-                          m->grid.block_nodes,       m->planes.count,
+  const uint64_t own[] = {sizeof(struct node_block),
+                          sizeof(struct point_block),
+                          sizeof(struct nodes),
+                          POINT_SUMS,
+                          NODE_SIZE,
+                          m->grid.tile_nodes,
+                          m->grid.block_nodes,
+                          m->planes.count,
                           m->removal.takers};
   uint64_t found[sizeof own / sizeof *own];
   memcpy(found, own, sizeof own);
@@ -45,8 +49,8 @@ static void pass_layout(const struct model *m, struct archive *a)
 static void pass_box(struct model *m, size_t index, struct archive *a)
 {
   struct grid *g = &m->grid;
-  struct source *s = &g->source[index];
-  struct source copy = *s;
+  struct point_block *s = &g->source[index];
+  struct point_block copy = *s;
   copy.box = NULL;
   copy.opened = 0;
   pass(a, &copy, sizeof copy);
@@ -58,15 +62,16 @@ static void pass_box(struct model *m, size_t index, struct archive *a)
   for (int k = 0; k < 3; k++)
     nodes *= s->upper[k] > s->lower[k] ? (size_t)(s->upper[k] - s->lower[k]) : 0;
   if (a->from == NULL) {
-    pass(a, s->box, nodes * LINE * sizeof *s->box);
+    pass(a, s->box, nodes * NODE_SIZE * sizeof *s->box);
     return;
   }
   double *tile = m->work[0]->sums;
-  const size_t row = nodes == 0 ? 0 : (size_t)(s->upper[0] - s->lower[0]) * LINE * sizeof *tile;
+  const size_t row =
+      nodes == 0 ? 0 : (size_t)(s->upper[0] - s->lower[0]) * NODE_SIZE * sizeof *tile;
   a->failed = nodes > g->tile_nodes;
   for (int z = s->lower[2]; z < s->upper[2] && !a->failed; z++)
     for (int y = s->lower[1]; y < s->upper[1] && !a->failed; y++)
-      pass(a, tile + LINE * (s->lower[0] + g->tile * (y + g->tile * z)), row);
+      pass(a, tile + NODE_SIZE * (s->lower[0] + g->tile * (y + g->tile * z)), row);
   if (!a->failed)
     a->failed = grid_leave(g, index, tile) != GAMUT_OK;
 }
@@ -110,9 +115,9 @@ static void pass_removal(struct model *m, struct archive *a)
   pass(a, &r->sort_due, sizeof r->sort_due);
   for (size_t i = 0; i < r->takers; i++) {
     struct taker *t = r->taker[i];
-    pass(a, &t->told, sizeof t->told);
+    pass(a, &t->reported, sizeof t->reported);
     pass(a, &t->total, sizeof t->total);
-    pass(a, t->spin, sizeof t->spin);
+    pass(a, t->angular_momentum, sizeof t->angular_momentum);
     pass(a, t->of_body, m->bodies * sizeof *t->of_body);
   }
 }

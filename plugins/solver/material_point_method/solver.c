@@ -92,7 +92,7 @@ static gamut_status find_fields(struct model *m)
 static gamut_status make_work(struct model *m)
 {
   static const char label[] = "work space of threads";
-  const size_t tile = m->grid.tile_nodes * LINE * sizeof(double);
+  const size_t tile = m->grid.tile_nodes * NODE_SIZE * sizeof(double);
   m->threads = gamut_threads(m->run);
   m->work = gamut_allocate(m->run, label, (size_t)m->threads * sizeof(*m->work));
   if (m->work == NULL)

@@ -34,7 +34,7 @@ gamut_status totals_room(struct model *m)
   if (status == GAMUT_OK)
     status = widen(m, &t->measured, &t->measured_capacity, sources * MEASURED);
   if (status == GAMUT_OK)
-    status = widen(m, &m->node_sum, &t->node_capacity, nodes * NODE_SUMS);
+    status = widen(m, &m->node_sum, &t->node_capacity, nodes * TOTAL_SUMS);
   if (status == GAMUT_OK)
     status = widen(m, &m->node_speed, &t->speed_capacity, nodes);
   return status == GAMUT_OK ? removal_room(m) : status;

@@ -147,7 +147,7 @@ static void free_lines(struct grid *g, double *line)
 
 static gamut_status new_page(struct grid *g)
 {
-  const size_t doubles = g->block_nodes * LINE;
+  const size_t doubles = g->block_nodes * NODE_SIZE;
   struct line_page *page =
       gamut_allocate(g->run, "grid", sizeof *page + PAGE_BLOCKS * doubles * sizeof(double));
   if (page == NULL)
@@ -167,7 +167,7 @@ gamut_status grid_open(struct grid *g, struct node_block *b)
     return GAMUT_INTERNAL;
   b->line = g->free_line;
   memcpy(&g->free_line, b->line, sizeof g->free_line);
-  memset(b->line, 0, g->block_nodes * LINE * sizeof *b->line);
+  memset(b->line, 0, g->block_nodes * NODE_SIZE * sizeof *b->line);
   g->opened = true;
   return GAMUT_OK;
 }
@@ -175,7 +175,7 @@ gamut_status grid_open(struct grid *g, struct node_block *b)
 gamut_status grid_open_reached(struct grid *g)
 {
   for (size_t i = 0; i < g->sources; i++) {
-    struct source *s = &g->source[i];
+    struct point_block *s = &g->source[i];
     const uint32_t fresh = s->reach & ~s->opened;
     for (unsigned o = 0; fresh >> o != 0; o++)
       if ((fresh >> o & 1) != 0 &&
@@ -226,7 +226,7 @@ static void free_unreached(struct grid *g)
   for (size_t b = 0; b < g->blocks; b++)
     g->block[b].reached = false;
   for (size_t i = 0; i < g->sources; i++) {
-    const struct source *s = &g->source[i];
+    const struct point_block *s = &g->source[i];
     for (unsigned o = 0; s->reach >> o != 0; o++)
       if ((s->reach >> o & 1) != 0)
         g->block[g->block[s->block].neighbour[o]].reached = true;
@@ -324,7 +324,7 @@ gamut_status grid_sources(struct grid *g, size_t sources)
 
 void grid_source(struct grid *g, size_t index, int32_t block)
 {
-  struct source *s = &g->source[index];
+  struct point_block *s = &g->source[index];
   s->block = block;
   s->next = -1;
   s->box = NULL;

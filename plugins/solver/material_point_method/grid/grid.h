@@ -12,33 +12,33 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 enum {
-  LINE = 8,       /* doubles a node: mass, momentum x y z, force x y z, squared mass */
+  NODE_SIZE = 8,  /* doubles a node: mass, momentum x y z, force x y z, squared mass */
   NEIGHBOURS = 27 /* at most */
 };
-/* A line after the sums ... LINE_SQUARE is the sum of N m^2 of the points where the model asks for
+/* A line after the sums ... NODE_SQUARE is the sum of N m^2 of the points where the model asks for
  * it, else 0; planes make it negative at nodes that they act on. */
-enum { LINE_MASS = 0, LINE_MOMENTUM = 1, LINE_FORCE = 4, LINE_SQUARE = 7 };
-/* ... and after the update. LINE_CHANGE is what the points' velocity gets: the step's
- * change of velocity, of which the part LINE_SLOW is in LINE_VELOCITY, and a share of the velocity
- * before. In the second pass of MUSL the first new velocity moves there, and LINE_VELOCITY is the
+enum { NODE_MASS = 0, NODE_MOMENTUM = 1, NODE_FORCE = 4, NODE_SQUARE = 7 };
+/* ... and after the update. NODE_CHANGE is what the points' velocity gets: the step's
+ * change of velocity, of which the part NODE_SLOW is in NODE_VELOCITY, and a share of the velocity
+ * before. In the second pass of MUSL the first new velocity moves there, and NODE_VELOCITY is the
  * re-projected one. */
-enum { LINE_VELOCITY = 0, LINE_CHANGE = 3, LINE_SHARE = 6, LINE_SLOW = 7 };
+enum { NODE_VELOCITY = 0, NODE_CHANGE = 3, NODE_FRACTION = 6, NODE_SLOW = 7 };
 
 /* Sums over the nodes of a block in one grid update. */
 enum node_sum {
-  NODE_BEFORE, /* kinetic energy */
-  NODE_AFTER,
-  NODE_WORK, /* of all forces */
-  NODE_SPIN, /* moment of momentum after it */
-  NODE_SUMS = NODE_SPIN + 3
+  TOTAL_BEFORE, /* kinetic energy */
+  TOTAL_AFTER,
+  TOTAL_WORK,             /* of all forces */
+  TOTAL_ANGULAR_MOMENTUM, /* moment of momentum after it */
+  TOTAL_SUMS = TOTAL_ANGULAR_MOMENTUM + 3
 };
 
 /* All nodes of one grid update. */
 struct nodes {
-  double sum[NODE_SUMS];
+  double sum[TOTAL_SUMS];
   double speed; /* fastest component */
 };
 
@@ -54,7 +54,7 @@ struct node_block {
 };
 
 /* A block of points, seen from the grid. */
-struct source {
+struct point_block {
   int32_t block;              /* the block of nodes at its place */
   int32_t next;               /* next block of points at this place, or -1 */
   int32_t lower[3], upper[3]; /* nodes of the tile from lower to upper - 1 hold its sums */
@@ -99,7 +99,7 @@ struct grid {
   bool opened;            /* blocks got lines since planes were found */
 
   size_t sources, source_capacity;
-  struct source *source; /* in the order of chunk.serial */
+  struct point_block *source; /* in the order of chunk.serial */
   double *box;           /* pool of boxes */
   size_t box_capacity, box_used; /* in lines */
   size_t box_before;             /* capacity before the sort */
@@ -146,7 +146,7 @@ void grid_node(const struct grid *, const struct node_block *, size_t index, int
 
 /* Nodes of a source's box from the grid into a tile, and from a tile into the box (the tile is left
  * clear). */
-void grid_load(const struct grid *, const struct source *, double *tile);
+void grid_load(const struct grid *, const struct point_block *, double *tile);
 gamut_status grid_leave(struct grid *, size_t source, double *tile);
 /* Adds up the boxes around a block. `lines` has room for block_nodes lines. */
 void grid_collect(const struct grid *, const struct node_block *, double *lines);

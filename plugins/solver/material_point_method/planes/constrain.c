@@ -16,7 +16,7 @@ static void fold(const struct plane *p, double *const line[3], int mass, int vec
     if (p->odd[k]) {
       on[vector + k] = on[mass] * v;
       if (force)
-        on[LINE_FORCE + k] = 0.0;
+        on[NODE_FORCE + k] = 0.0;
     }
     if (before == NULL || behind == NULL)
       continue;
@@ -24,8 +24,8 @@ static void fold(const struct plane *p, double *const line[3], int mass, int vec
     before[vector + k] += sign * behind[vector + k] + shift;
     behind[vector + k] = 0.0;
     if (force) {
-      before[LINE_FORCE + k] += sign * behind[LINE_FORCE + k];
-      behind[LINE_FORCE + k] = 0.0;
+      before[NODE_FORCE + k] += sign * behind[NODE_FORCE + k];
+      behind[NODE_FORCE + k] = 0.0;
     }
   }
   if (before != NULL && behind != NULL) {
@@ -40,7 +40,7 @@ static bool presses(const struct plane *p, const double *line, double step)
   double speed = 0.0;
   for (int k = 0; k < 3; k++)
     speed += p->given.normal[k] *
-             ((line[LINE_MOMENTUM + k] + step * line[LINE_FORCE + k]) / line[LINE_MASS] -
+             ((line[NODE_MOMENTUM + k] + step * line[NODE_FORCE + k]) / line[NODE_MASS] -
               p->given.velocity[k]);
   return speed < 0.0;
 }
@@ -53,16 +53,16 @@ static bool pressed(const struct plane *p, double *const line[3], double step)
   double impulse = 0.0, mass = 0.0, difference = 0.0;
   for (int k = BEFORE; k <= BEHIND; k++)
     if (line[k] != NULL)
-      impulse -= step * p->given.normal[p->axis] * line[k][LINE_FORCE + p->axis];
+      impulse -= step * p->given.normal[p->axis] * line[k][NODE_FORCE + p->axis];
   if (before != NULL) {
-    mass += before[LINE_MASS];
-    difference += before[LINE_MASS];
+    mass += before[NODE_MASS];
+    difference += before[NODE_MASS];
     if (behind != NULL) {
-      mass += behind[LINE_MASS];
-      difference -= behind[LINE_MASS];
+      mass += behind[NODE_MASS];
+      difference -= behind[NODE_MASS];
     }
     const double force =
-        before[LINE_FORCE + p->axis] - (behind != NULL ? behind[LINE_FORCE + p->axis] : 0.0);
+        before[NODE_FORCE + p->axis] - (behind != NULL ? behind[NODE_FORCE + p->axis] : 0.0);
     if (mass > 0.0)
       impulse += step * p->given.normal[p->axis] * force * difference / mass;
   }
@@ -74,8 +74,8 @@ static bool in_contact(const struct model *m, const struct plane *p, const struc
                        double *const line[3], double step)
 {
   if (!p->given.unilateral)
-    return line[ON][LINE_MASS] > 0.0;
-  if (!(line[ON][LINE_MASS] > m->grid.empty))
+    return line[ON][NODE_MASS] > 0.0;
+  if (!(line[ON][NODE_MASS] > m->grid.empty))
     return false;
   return c->arrives ? presses(p, line[ON], step) : pressed(p, line, step);
 }
@@ -87,11 +87,11 @@ void planes_before_update(struct model *m)
   for (size_t i = 0; i < ps->touches; i++) {
     struct touched *t = &ps->touched[i];
     double *line = touched_line(m, (int32_t)i);
-    t->mass = line[LINE_MASS];
-    memcpy(t->momentum, line + LINE_MOMENTUM, sizeof t->momentum);
-    memcpy(t->force, line + LINE_FORCE, sizeof t->force);
+    t->mass = line[NODE_MASS];
+    memcpy(t->momentum, line + NODE_MOMENTUM, sizeof t->momentum);
+    memcpy(t->force, line + NODE_FORCE, sizeof t->force);
     /* A mark for the update: below zero, as no sum of squares is in any rounding mode. */
-    line[LINE_SQUARE] = -fmax(fabs(line[LINE_SQUARE]), DBL_MIN);
+    line[NODE_SQUARE] = -fmax(fabs(line[NODE_SQUARE]), DBL_MIN);
   }
   for (size_t i = 0; i < ps->count; i++) {
     struct plane *p = ps->plane[i];
@@ -103,7 +103,7 @@ void planes_before_update(struct model *m)
       column->arrives = places_find(p->held, column->node) < 0;
       column->contact = in_contact(m, p, column, line, step);
       if (column->contact)
-        fold(p, line, LINE_MASS, LINE_MOMENTUM, true);
+        fold(p, line, NODE_MASS, NODE_MOMENTUM, true);
     }
   }
 }
@@ -115,11 +115,11 @@ static void unfold(const struct plane *p, double *const line[3], bool change)
   if (line[BEHIND] == NULL || line[BEFORE] == NULL)
     return;
   for (int k = 0; k < 3; k++) {
-    const double v = line[BEFORE][LINE_VELOCITY + k];
-    line[BEHIND][LINE_VELOCITY + k] = p->odd[k] ? 2.0 * p->given.velocity[k] - v : v;
+    const double v = line[BEFORE][NODE_VELOCITY + k];
+    line[BEHIND][NODE_VELOCITY + k] = p->odd[k] ? 2.0 * p->given.velocity[k] - v : v;
     if (change)
-      line[BEHIND][LINE_CHANGE + k] =
-          p->odd[k] ? -line[BEFORE][LINE_CHANGE + k] : line[BEFORE][LINE_CHANGE + k];
+      line[BEHIND][NODE_CHANGE + k] =
+          p->odd[k] ? -line[BEFORE][NODE_CHANGE + k] : line[BEFORE][NODE_CHANGE + k];
   }
 }
 
@@ -178,7 +178,7 @@ static void fit(const struct plane *p, double v[3])
 static bool hold(const struct plane *p, double *line, const double force[3], double step,
                  bool arrives)
 {
-  double *v = line + LINE_VELOCITY, *change = line + LINE_CHANGE, old[3];
+  double *v = line + NODE_VELOCITY, *change = line + NODE_CHANGE, old[3];
   const double press = press_of(p, force, step);
   if (p->given.unilateral && (arrives ? along_normal(p, v) >= 0.0 : press < 0.0))
     return false;
@@ -188,7 +188,7 @@ static bool hold(const struct plane *p, double *line, const double force[3], dou
   if (!arrives)
     fit(p, old);
   if (p->given.friction > 0.0)
-    rub(p, v, line[LINE_SHARE], press);
+    rub(p, v, line[NODE_FRACTION], press);
   for (int k = 0; k < 3; k++)
     change[k] = v[k] - old[k];
   return true;
@@ -217,7 +217,7 @@ static void stop_arrival(struct model *m, const struct plane *p, const struct co
       if (line == NULL || !(m->planes.touched[c->touched[n]].mass > m->grid.empty))
         continue;
       const struct touched *t = &m->planes.touched[c->touched[n]];
-      line[LINE_CHANGE + k] = line[LINE_VELOCITY + k] - t->momentum[k] / t->mass;
+      line[NODE_CHANGE + k] = line[NODE_VELOCITY + k] - t->momentum[k] / t->mass;
     }
   }
 }
@@ -232,14 +232,14 @@ static void column_friction(struct model *m, const struct plane *p, const struct
       continue;
     const struct touched *t = &m->planes.touched[c->touched[k]];
     for (int i = 0; i < 3; i++)
-      normal += p->given.normal[i] * (t->mass * line[LINE_CHANGE + i] - step * t->force[i]);
+      normal += p->given.normal[i] * (t->mass * line[NODE_CHANGE + i] - step * t->force[i]);
   }
   double *line = touched_line(m, c->touched[ON]);
   double before[3];
-  memcpy(before, line + LINE_VELOCITY, sizeof before);
-  rub(p, line + LINE_VELOCITY, line[LINE_SHARE], normal);
+  memcpy(before, line + NODE_VELOCITY, sizeof before);
+  rub(p, line + NODE_VELOCITY, line[NODE_FRACTION], normal);
   for (int k = 0; k < 3; k++)
-    line[LINE_CHANGE + k] += line[LINE_VELOCITY + k] - before[k];
+    line[NODE_CHANGE + k] += line[NODE_VELOCITY + k] - before[k];
 }
 
 /* What the limit of a nearly empty node's acceleration keeps from strain and places; the points'
@@ -248,10 +248,10 @@ static void find_rest(struct model *m)
 {
   for (size_t i = 0; i < m->planes.touches; i++) {
     const double *line = touched_line(m, (int32_t)i);
-    const double slow = line[LINE_SLOW];
-    const bool slowed = slow > 0.0 && (m->limited || !(line[LINE_SHARE] > m->grid.empty));
+    const double slow = line[NODE_SLOW];
+    const bool slowed = slow > 0.0 && (m->limited || !(line[NODE_FRACTION] > m->grid.empty));
     for (int k = 0; k < 3; k++)
-      m->planes.touched[i].rest[k] = slowed ? line[LINE_CHANGE + k] * (1.0 / slow - 1.0) : 0.0;
+      m->planes.touched[i].rest[k] = slowed ? line[NODE_CHANGE + k] * (1.0 / slow - 1.0) : 0.0;
   }
 }
 
@@ -289,7 +289,7 @@ static void give_rest(struct model *m)
   }
   for (size_t i = 0; i < ps->touches; i++)
     for (int k = 0; k < 3; k++)
-      touched_line(m, (int32_t)i)[LINE_CHANGE + k] += ps->touched[i].rest[k];
+      touched_line(m, (int32_t)i)[NODE_CHANGE + k] += ps->touched[i].rest[k];
 }
 
 /* The share of the velocity before the step that goes to the points with its change. */
@@ -298,8 +298,8 @@ static void give_old(struct model *m)
   for (size_t i = 0; i < m->planes.touches; i++) {
     double *line = touched_line(m, (int32_t)i);
     for (int k = 0; k < 3; k++) {
-      const double change = line[LINE_CHANGE + k] - m->planes.touched[i].rest[k];
-      line[LINE_CHANGE + k] += m->give_old * (line[LINE_VELOCITY + k] - change);
+      const double change = line[NODE_CHANGE + k] - m->planes.touched[i].rest[k];
+      line[NODE_CHANGE + k] += m->give_old * (line[NODE_VELOCITY + k] - change);
     }
   }
 }
@@ -321,7 +321,7 @@ gamut_status planes_after_update(struct model *m, double step)
       const bool at = plane_distance(p, t->x, gamut_time(m->run)) > -0.999 * m->cell;
       if (at)
         contact_see(m, p, t);
-      node->contact = line[LINE_SHARE] > (p->given.unilateral ? m->grid.empty : 0.0) &&
+      node->contact = line[NODE_FRACTION] > (p->given.unilateral ? m->grid.empty : 0.0) &&
                       hold(p, line, t->force, step, arrives);
       if (node->contact && at)
         contact_add(m, i, t);
@@ -363,7 +363,7 @@ void planes_before_second(struct model *m)
       for (int k = 0; k < 3; k++)
         line[k] = touched_line(m, p->column[c].touched[k]);
       if (p->column[c].contact || !p->given.unilateral)
-        fold(p, line, LINE_SHARE, LINE_VELOCITY, false);
+        fold(p, line, NODE_FRACTION, NODE_VELOCITY, false);
     }
   }
 }
@@ -375,7 +375,7 @@ void planes_after_second(struct model *m)
     struct plane *p = ps->plane[i];
     for (size_t n = 0; n < p->nodes; n++)
       if (p->node[n].contact || !p->given.unilateral)
-        fit(p, touched_line(m, p->node[n].touched) + LINE_VELOCITY);
+        fit(p, touched_line(m, p->node[n].touched) + NODE_VELOCITY);
   }
   for (size_t i = ps->count; i-- > 0;) {
     struct plane *p = ps->plane[i];

@@ -23,7 +23,7 @@ double *touched_line(const struct model *m, int32_t touched)
   if (touched < 0)
     return NULL;
   const struct touched *t = &m->planes.touched[touched];
-  return m->grid.block[t->block].line + (size_t)t->index * LINE;
+  return m->grid.block[t->block].line + (size_t)t->index * NODE_SIZE;
 }
 
 gamut_status planes_add(struct model *m, const struct gamut_plane *given,

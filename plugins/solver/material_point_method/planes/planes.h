@@ -13,7 +13,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 #include "grid/grid.h"
 
@@ -24,7 +24,7 @@ enum { PLANES_MAX = 64, BEFORE = 0, ON = 1, BEHIND = 2 };
 /* Sums over the touched nodes of a block, which are left out of its other sums. */
 enum plane_sum {
   PLANE_NODES, /* what updates sum at all others */
-  PLANE_WORK = PLANE_NODES + NODE_SUMS,
+  PLANE_WORK = PLANE_NODES + TOTAL_SUMS,
   PLANE_LOSS,
   PLANE_ROUND,
   PLANE_BACK_ROUND = PLANE_ROUND + 3,

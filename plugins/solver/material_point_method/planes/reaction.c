@@ -97,13 +97,13 @@ static void book_nodes(struct model *m, double step)
     if (t->mass == 0.0)
       continue;
     for (int k = 0; k < 3; k++) {
-      const double v = line[LINE_VELOCITY + k], whole = line[LINE_CHANGE + k];
+      const double v = line[NODE_VELOCITY + k], whole = line[NODE_CHANGE + k];
       const double change = whole - t->rest[k], old = v - change, mean = v - 0.5 * change;
       const double own = t->mass * whole - step * t->force[k];
       const struct plane *p = ps->plane[t->owner[k]];
-      row[PLANE_NODES + NODE_BEFORE] += 0.5 * t->mass * old * old;
-      row[PLANE_NODES + NODE_AFTER] += 0.5 * t->mass * v * v;
-      row[PLANE_NODES + NODE_WORK] += (step * t->force[k] - t->mass * t->rest[k]) * mean;
+      row[PLANE_NODES + TOTAL_BEFORE] += 0.5 * t->mass * old * old;
+      row[PLANE_NODES + TOTAL_AFTER] += 0.5 * t->mass * v * v;
+      row[PLANE_NODES + TOTAL_WORK] += (step * t->force[k] - t->mass * t->rest[k]) * mean;
       row[PLANE_WORK] += own * p->given.velocity[k];
       row[PLANE_LOSS] += own * (p->given.velocity[k] - mean);
       each[EACH_PLANE_SUMS * (size_t)t->owner[k] + EACH_WORK] += own * p->given.velocity[k];
@@ -117,7 +117,7 @@ static void book_nodes(struct model *m, double step)
                             t->x[b] * (after[a] - t->momentum[a] - step * t->force[a]);
       row[PLANE_ROUND + k] += fmax(moment, 0.0);
       row[PLANE_BACK_ROUND + k] += fmin(moment, 0.0);
-      row[PLANE_NODES + NODE_SPIN + k] += t->x[a] * after[b] - t->x[b] * after[a];
+      row[PLANE_NODES + TOTAL_ANGULAR_MOMENTUM + k] += t->x[a] * after[b] - t->x[b] * after[a];
     }
   }
 }
@@ -128,7 +128,7 @@ static void add_rows(struct model *m)
   struct planes *ps = &m->planes;
   double total[PLANE_SUMS + EACH_PLANE_SUMS * PLANES_MAX];
   gamut_sum(m->run, ps->row, rows_of(m), columns_of(m), total);
-  for (int q = 0; q < NODE_SUMS; q++)
+  for (int q = 0; q < TOTAL_SUMS; q++)
     m->nodes.sum[q] += total[PLANE_NODES + q];
   ps->work = total[PLANE_WORK];
   ps->loss = total[PLANE_LOSS];
@@ -173,7 +173,7 @@ gamut_status planes_book(struct model *m, double step)
 void planes_before_pass(struct model *m)
 {
   for (size_t i = 0; i < m->planes.touches; i++)
-    memcpy(m->planes.touched[i].passed, touched_line(m, (int32_t)i) + LINE_VELOCITY,
+    memcpy(m->planes.touched[i].passed, touched_line(m, (int32_t)i) + NODE_VELOCITY,
            sizeof m->planes.touched[i].passed);
 }
 
@@ -181,7 +181,7 @@ void planes_book_pass(struct model *m, double weight)
 {
   for (size_t i = 0; i < m->planes.touches; i++) {
     struct touched *t = &m->planes.touched[i];
-    const double *velocity = touched_line(m, (int32_t)i) + LINE_VELOCITY;
+    const double *velocity = touched_line(m, (int32_t)i) + NODE_VELOCITY;
     for (int k = 0; k < 3; k++)
       t->given[k] += weight * (t->mass * velocity[k] - t->passed[k]);
   }
@@ -273,7 +273,7 @@ static void give_back(struct model *m)
     for (int k = 0; k < 3; k++) {
       struct touched *t = &ps->touched[i];
       t->given[k] += t->mass * t->back[k];
-      touched_line(m, (int32_t)i)[LINE_CHANGE + k] += t->back[k];
+      touched_line(m, (int32_t)i)[NODE_CHANGE + k] += t->back[k];
     }
 }
 

@@ -1,5 +1,5 @@
 /* Points that leave the run: who takes them, and what they took along. A point that lost its mass
- * in a sweep (take.c) is dropped from its set after the step. */
+ * in a sweep (removal_sweep.c) is dropped from its set after the step. */
 #include "points/removal.h"
 
 #include <string.h>
@@ -70,8 +70,8 @@ static double body_mass(const struct model *m, const struct gamut_set *set)
 gamut_status removal_start(struct model *m)
 {
   struct removals *r = &m->removal;
-  if (r->stray.count > 0)
-    return stray_fail(m);
+  if (r->lost_points.count > 0)
+    return lost_point_fail(m);
   if (r->takers == 0)
     return GAMUT_OK;
   for (int t = 0; t < m->threads; t++)
@@ -129,7 +129,7 @@ static void add_to_taker(const struct model *m, size_t number)
   taker->total.internal += gone[GONE_INTERNAL];
   for (unsigned k = 0; k < 3; k++) {
     taker->total.momentum[k] += gone[GONE_MOMENTUM + k];
-    taker->spin[k] += gone[GONE_SPIN + k];
+    taker->angular_momentum[k] += gone[GONE_ANGULAR_MOMENTUM + k];
   }
   for (size_t b = 0; b < m->bodies; b++)
     taker->of_body[b] += r->sum[b * columns + number * GONE_SUMS + GONE_MASS];
@@ -176,8 +176,8 @@ gamut_status removal_keep(struct model *m)
   enum { FEW = 64 };
   struct removals *r = &m->removal;
   size_t serial = 0, block[FEW];
-  if (r->stray.count > 0)
-    return stray_fail(m);
+  if (r->lost_points.count > 0)
+    return lost_point_fail(m);
   memset(r->now, 0, sizeof r->now);
   if (r->takers == 0)
     return GAMUT_OK;
@@ -204,12 +204,12 @@ gamut_status removal_check(struct model *m)
   struct taker *out = r->outside;
   if (r->now[GONE_POINTS] == 0.0)
     return GAMUT_OK;
-  if (out != NULL && out->total.points > 0.0 && !out->told) {
+  if (out != NULL && out->total.points > 0.0 && !out->reported) {
     m->host->warn(m->run,
                   "points leave solver.domain and are taken out of the run, the first %.0f with "
                   "%.6g kg at t = %.6g s; the ledger's lines 'left the domain' have all of them",
                   out->total.points, out->total.mass, gamut_time(m->run));
-    out->told = true;
+    out->reported = true;
   }
   for (size_t t = 0; t < r->takers; t++)
     for (size_t b = 0; b < m->bodies; b++) {

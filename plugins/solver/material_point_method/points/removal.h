@@ -2,15 +2,15 @@
 #ifndef MATERIAL_POINT_METHOD_REMOVAL_H
 #define MATERIAL_POINT_METHOD_REMOVAL_H
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 /* What points had that left a block. */
 enum gone_sum {
   GONE_POINTS,
   GONE_MASS,
   GONE_MOMENTUM,
-  GONE_SPIN = GONE_MOMENTUM + 3,
-  GONE_KINETIC = GONE_SPIN + 3,
+  GONE_ANGULAR_MOMENTUM = GONE_MOMENTUM + 3,
+  GONE_KINETIC = GONE_ANGULAR_MOMENTUM + 3,
   GONE_INTERNAL,
   GONE_SUMS
 };
@@ -18,16 +18,16 @@ enum gone_sum {
 struct taker {
   const char *name;
   const bool *on_body; /* null: of all bodies */
-  bool lost, told;
+  bool lost, reported;
   double most; /* share of a body's mass; 0: all */
   struct gamut_removed total;
-  double spin[3];
+  double angular_momentum[3];
   double *of_body; /* mass taken of each body */
-  double *mass_line, *energy_line, *momentum_line[3], *spin_line[3]; /* or null */
+  double *mass_line, *energy_line, *momentum_line[3], *angular_momentum_line[3]; /* or null */
 };
 
 /* The first of the points that are nowhere in this step, by set and id. */
-struct stray {
+struct lost_points {
   size_t count, slot;
   const struct gamut_set *set;
   const char *what;
@@ -45,7 +45,7 @@ struct removals {
   double second;         /* of affine velocity fields: the mean second moment of the weights, m2 */
   size_t since_sort;     /* points that left */
   bool sort_due;
-  struct stray stray;
+  struct lost_points lost_points;
 };
 
 struct model;
@@ -74,14 +74,15 @@ gamut_status removal_keep(struct model *);
 gamut_status removal_check(struct model *);
 
 /* Points that lie outside the tile or the domain: the step is finished, then the run stops. */
-void stray_note(struct model *, const struct gamut_set *, size_t slot, const char *what);
-gamut_status stray_outside_tile(struct model *, const struct gamut_set *, size_t slot,
-                                const struct locate *, const double *const x[3],
-                                const double *const v[3]);
-void stray_outside_domain(struct model *, const struct gamut_set *, size_t slot, size_t count,
-                          const double *const x[3], const double *mass);
+void lost_point_note(struct model *, const struct gamut_set *, size_t slot, const char *what);
+gamut_status lost_point_outside_tile(struct model *, const struct gamut_set *, size_t slot,
+                                     const struct locate *, const double *const x[3],
+                                     const double *const v[3]);
+void lost_point_outside_domain(struct model *, const struct gamut_set *, size_t slot, size_t count,
+                               const double *const x[3], const double *mass);
 /* Points whose time step has no bound that is a number. */
-void stray_without_step(struct model *, const struct gamut_chunk *, const double *omega_squared);
-gamut_status stray_fail(struct model *);
+void lost_point_without_step(struct model *, const struct gamut_chunk *,
+                             const double *omega_squared);
+gamut_status lost_point_fail(struct model *);
 
 #endif

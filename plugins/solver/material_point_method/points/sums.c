@@ -21,9 +21,9 @@ static void add_affine(double *restrict sum, const struct work *w, const struct 
     ADD(SUM_KINETIC, 0.5 * mass * energy);
     for (size_t k = 0; k < 3; k++) {
       const size_t a = (k + 1) % 3, b = (k + 2) % 3;
-      const double spin = mass * (moment[3 * b + a] - moment[3 * a + b]);
-      ADD(SUM_SPIN + k, spin);
-      ADD(SUM_ROUND + k, spin > 0.0 ? spin : 0.0);
+      const double angular_momentum = mass * (moment[3 * b + a] - moment[3 * a + b]);
+      ADD(SUM_ANGULAR_MOMENTUM + k, angular_momentum);
+      ADD(SUM_ROUND + k, angular_momentum > 0.0 ? angular_momentum : 0.0);
     }
   }
 }
@@ -43,13 +43,13 @@ void sums_motion(struct work *w, const struct point_view *p, unsigned dimension,
       const double u = p->velocity[0][j], v = p->velocity[1][j], t = p->velocity[2][j];
       ADD(SUM_MASS, mass);
       const double push[3] = {mass * u, mass * v, mass * t};
-      const double spin[3] = {y * push[2] - z * push[1], z * push[0] - x * push[2],
-                              x * push[1] - y * push[0]};
+      const double angular_momentum[3] = {y * push[2] - z * push[1], z * push[0] - x * push[2],
+                                          x * push[1] - y * push[0]};
       for (size_t k = 0; k < 3; k++) {
         ADD(SUM_MOMENTUM + k, push[k]);
         ADD(SUM_FORWARD + k, push[k] > 0.0 ? push[k] : 0.0);
-        ADD(SUM_SPIN + k, spin[k]);
-        ADD(SUM_ROUND + k, spin[k] > 0.0 ? spin[k] : 0.0);
+        ADD(SUM_ANGULAR_MOMENTUM + k, angular_momentum[k]);
+        ADD(SUM_ROUND + k, angular_momentum[k] > 0.0 ? angular_momentum[k] : 0.0);
       }
       ADD(SUM_KINETIC, 0.5 * mass * (u * u + v * v + t * t));
       ADD(SUM_INTERNAL, mass * over * e[j]);

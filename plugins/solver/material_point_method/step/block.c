@@ -22,9 +22,9 @@ gamut_status load_block(void *self, const struct gamut_chunk *chunk)
   return GAMUT_OK;
 }
 
-gamut_status leave_box(struct model *m, struct work *w, size_t serial)
+gamut_status flush_box(struct model *m, struct work *w, size_t serial)
 {
-  struct source *s = &m->grid.source[serial];
+  struct point_block *s = &m->grid.source[serial];
   if (m->transfer.finish != NULL)
     m->transfer.finish(w);
   for (unsigned k = 0; k < m->dimension; k++) {
@@ -37,24 +37,24 @@ gamut_status leave_box(struct model *m, struct work *w, size_t serial)
 }
 
 /* In the sweep that moves the points. */
-static void leave_speed(struct model *m, struct work *w, size_t serial)
+static void flush_speed(struct model *m, struct work *w, size_t serial)
 {
   m->block_most[serial].speed = w->speed;
   w->speed = 0.0;
 }
 
-gamut_status leave_momentum(void *self, const struct gamut_chunk *chunk)
+gamut_status flush_momentum(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
   struct work *w = m->work[chunk->thread];
   if (m->stress_update == UPDATE_USF)
-    leave_speed(m, w, chunk->serial);
-  return leave_box(m, w, chunk->serial);
+    flush_speed(m, w, chunk->serial);
+  return flush_box(m, w, chunk->serial);
 }
 
-gamut_status leave_sums(struct model *m, struct work *w, size_t serial)
+gamut_status flush_sums(struct model *m, struct work *w, size_t serial)
 {
-  const gamut_status status = leave_box(m, w, serial);
+  const gamut_status status = flush_box(m, w, serial);
   for (size_t q = 0; q < POINT_SUMS; q++) {
     double sum = 0.0;
     for (size_t l = 0; l < GAMUT_LANES; l++)
@@ -65,14 +65,14 @@ gamut_status leave_sums(struct model *m, struct work *w, size_t serial)
   m->block_most[serial].omega_squared = w->omega_squared;
   w->omega_squared = 0.0;
   if (m->stress_update != UPDATE_USF)
-    leave_speed(m, w, serial);
+    flush_speed(m, w, serial);
   return status;
 }
 
-gamut_status leave_block(void *self, const struct gamut_chunk *chunk)
+gamut_status flush_block(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
-  return leave_sums(m, m->work[chunk->thread], chunk->serial);
+  return flush_sums(m, m->work[chunk->thread], chunk->serial);
 }
 
 static gamut_status first_block(struct model *m, const struct body *body, size_t block,
@@ -100,7 +100,7 @@ static gamut_status first_block(struct model *m, const struct body *body, size_t
     if (status != GAMUT_OK)
       return status;
   }
-  return leave_sums(m, w, serial);
+  return flush_sums(m, w, serial);
 }
 
 gamut_status each_block(struct model *m, block_work *run)

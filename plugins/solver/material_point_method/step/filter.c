@@ -16,7 +16,7 @@ static gamut_status room_for_lines(struct model *m)
   m->filter_capacity = 0;
   m->filter_line =
       gamut_allocate(m->run, "filter of velocities",
-                     m->grid.capacity * m->grid.block_nodes * LINE * sizeof *m->filter_line);
+                     m->grid.capacity * m->grid.block_nodes * NODE_SIZE * sizeof *m->filter_line);
   if (m->filter_line == NULL)
     return GAMUT_INTERNAL;
   m->filter_capacity = m->grid.capacity;
@@ -33,7 +33,7 @@ static void swap_lines(struct model *m)
     if (line == NULL)
       block->filter = NULL;
     else if (block->filter == NULL)
-      memset(line, 0, m->grid.block_nodes * LINE * sizeof *line);
+      memset(line, 0, m->grid.block_nodes * NODE_SIZE * sizeof *line);
     else {
       block->line = block->filter;
       block->filter = line;
@@ -54,8 +54,8 @@ static struct touched *touched_of(const struct model *m, const struct node_block
 /* Component k of a node's velocity before the step; `line` is the node's after the update. */
 static double velocity_before(const double *line, const struct touched *t, size_t k)
 {
-  const double change = line[LINE_CHANGE + k];
-  return line[LINE_VELOCITY + k] - (t == NULL ? change * line[LINE_SLOW] : change - t->rest[k]);
+  const double change = line[NODE_CHANGE + k];
+  return line[NODE_VELOCITY + k] - (t == NULL ? change * line[NODE_SLOW] : change - t->rest[k]);
 }
 
 static void begin(struct model *m)
@@ -63,16 +63,16 @@ static void begin(struct model *m)
   const size_t nodes = m->grid.block_nodes;
   for (size_t b = 0; b < m->grid.blocks; b++) {
     struct node_block *block = &m->grid.block[b];
-    block->filter = m->filter_line + b * nodes * LINE;
+    block->filter = m->filter_line + b * nodes * NODE_SIZE;
     for (size_t i = 0; i < nodes && block->line != NULL; i++) {
-      const double *from = block->line + i * LINE;
+      const double *from = block->line + i * NODE_SIZE;
       struct touched *t = touched_of(m, block, i);
-      double *to = block->filter + i * LINE;
-      memset(to, 0, LINE * sizeof *to);
-      to[LINE_SHARE] = from[LINE_SHARE];
+      double *to = block->filter + i * NODE_SIZE;
+      memset(to, 0, NODE_SIZE * sizeof *to);
+      to[NODE_FRACTION] = from[NODE_FRACTION];
       for (size_t k = 0; k < 3; k++) {
         const double before = velocity_before(from, t, k);
-        to[LINE_VELOCITY + k] = to[LINE_SHARE] * before;
+        to[NODE_VELOCITY + k] = to[NODE_FRACTION] * before;
         if (t != NULL)
           t->passed[k] = t->mass * before;
       }
@@ -99,11 +99,11 @@ static gamut_status pass_block(struct model *m, const struct body *body, size_t 
     for (unsigned k = 0; m->shape == SHAPE_GIMP && k < m->dimension; k++)
       l.length[k] = m->host->stored(set, m->field.domain_length, k) + at;
     if (!m->transfer.locate(w, &l, true))
-      return find_stray(m, set, at, &l, view.position, view.velocity);
+      return find_lost_point(m, set, at, &l, view.position, view.velocity);
     m->transfer.gather(w, view.count, true);
     m->transfer.scatter_momentum(w, &view, m->cell);
   }
-  return leave_box(m, w, serial);
+  return flush_box(m, w, serial);
 }
 
 static gamut_status pass(struct model *m)
@@ -120,13 +120,13 @@ static void settle(struct model *m, double weight)
   planes_book_pass(m, weight);
 }
 
-static void add_share(struct model *m, double share)
+static void add_fraction(struct model *m, double fraction)
 {
   for (size_t b = 0; b < m->grid.blocks; b++) {
     double *line = m->grid.block[b].line;
-    for (size_t i = 0; i < m->grid.block_nodes && line != NULL; i++, line += LINE)
+    for (size_t i = 0; i < m->grid.block_nodes && line != NULL; i++, line += NODE_SIZE)
       for (size_t k = 0; k < 3; k++)
-        line[LINE_CHANGE + k] += share * line[LINE_VELOCITY + k];
+        line[NODE_CHANGE + k] += fraction * line[NODE_VELOCITY + k];
   }
 }
 
@@ -136,10 +136,10 @@ static void finish(struct model *m)
   for (size_t b = 0; b < m->grid.blocks; b++) {
     const struct node_block *block = &m->grid.block[b];
     for (size_t i = 0; i < m->grid.block_nodes && block->filter != NULL; i++) {
-      double *line = block->line + i * LINE;
-      const double *filtered = block->filter + i * LINE + LINE_CHANGE;
+      double *line = block->line + i * NODE_SIZE;
+      const double *filtered = block->filter + i * NODE_SIZE + NODE_CHANGE;
       for (size_t k = 0; k < 3; k++)
-        line[LINE_CHANGE + k] += filtered[k];
+        line[NODE_CHANGE + k] += filtered[k];
     }
   }
 }
@@ -151,18 +151,19 @@ gamut_status step_filter(struct model *m)
   begin(m);
   swap_lines(m);
   gamut_status status = GAMUT_OK;
-  double share = m->filter, left = 1.0; /* of all shares, those of this pass and of later ones */
+  double fraction = m->filter,
+         left = 1.0; /* of all fractions, those of this pass and of later ones */
   settle(m, left);
-  add_share(m, share);
+  add_fraction(m, fraction);
   for (int r = 2; r <= m->filter && status == GAMUT_OK; r++) {
     status = pass(m);
     if (status != GAMUT_OK)
       break;
-    left -= share;
-    share *= -(double)(m->filter - r + 1) / r;
+    left -= fraction;
+    fraction *= -(double)(m->filter - r + 1) / r;
     planes_before_pass(m);
     settle(m, left);
-    add_share(m, share);
+    add_fraction(m, fraction);
   }
   swap_lines(m);
   if (status == GAMUT_OK)

@@ -54,7 +54,7 @@ static gamut_status register_first_pass(struct model *m)
   if (status == GAMUT_OK)
     status = add(m, "renew momentum", "momentum", GAMUT_PER_CHUNK, renew_momentum, u.use, u.count);
   if (status == GAMUT_OK)
-    status = add(m, "leave momentum", "momentum", GAMUT_CLOSE_BLOCK, leave_momentum, NULL, 0);
+    status = add(m, "flush momentum", "momentum", GAMUT_CLOSE_BLOCK, flush_momentum, NULL, 0);
   if (status == GAMUT_OK)
     status = add(m, "update grid again", "second grid", GAMUT_ONCE, step_update_again, NULL, 0);
   return status;
@@ -105,7 +105,7 @@ static gamut_status register_scatter(struct model *m)
       add(m, "scatter", "scatter", GAMUT_PER_CHUNK, scatter_points, u.use, u.count);
   return status != GAMUT_OK
              ? status
-             : add(m, "leave block", "scatter", GAMUT_CLOSE_BLOCK, leave_block, NULL, 0);
+             : add(m, "flush block", "scatter", GAMUT_CLOSE_BLOCK, flush_block, NULL, 0);
 }
 
 gamut_status step_register(struct model *m)

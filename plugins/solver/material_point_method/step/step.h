@@ -14,11 +14,11 @@ typedef gamut_status block_work(struct model *, const struct body *, size_t bloc
 /* Does it for all blocks, by all threads, outside the sweeps of the core. */
 gamut_status each_block(struct model *, block_work *);
 /* The box of a block of points, from the tile of its sums. */
-gamut_status leave_box(struct model *, struct work *, size_t serial);
-gamut_status leave_sums(struct model *, struct work *, size_t serial);
+gamut_status flush_box(struct model *, struct work *, size_t serial);
+gamut_status flush_sums(struct model *, struct work *, size_t serial);
 gamut_status load_block(void *self, const struct gamut_chunk *);
-gamut_status leave_momentum(void *self, const struct gamut_chunk *);
-gamut_status leave_block(void *self, const struct gamut_chunk *);
+gamut_status flush_momentum(void *self, const struct gamut_chunk *);
+gamut_status flush_block(void *self, const struct gamut_chunk *);
 
 /* sweep.c: of `count` points from a slot on, those before the padding at the end. */
 size_t real_points(const struct gamut_set *, size_t slot, size_t count);
@@ -31,10 +31,11 @@ gamut_status scatter_points(void *self, const struct gamut_chunk *);
 gamut_status scatter_view(struct model *, struct work *, const struct gamut_set *, size_t serial,
                           size_t slot, struct point_view *, const double *energy);
 
-/* stray.c: `x` and `v` are the position and the velocity of the points. */
+/* lost_points.c: `x` and `v` are the position and the velocity of the points. */
 struct locate locate_in(const struct model *, size_t serial, const double *const x[3],
                         size_t count);
 /* Names a point that left the tile of its block. */
-gamut_status find_stray(const struct model *, const struct gamut_set *, size_t slot,
-                        const struct locate *, const double *const x[3], const double *const v[3]);
+gamut_status find_lost_point(const struct model *, const struct gamut_set *, size_t slot,
+                             const struct locate *, const double *const x[3],
+                             const double *const v[3]);
 #endif

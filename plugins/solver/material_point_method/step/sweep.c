@@ -88,7 +88,7 @@ gamut_status renew_momentum(void *self, const struct gamut_chunk *chunk)
   struct locate l = locate_in(m, chunk->serial, view.position, chunk->count);
   find_domains(m, chunk, &l);
   if (!m->transfer.locate(w, &l, !moves))
-    return find_stray(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
+    return find_lost_point(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
   m->transfer.gather(w, chunk->count, moves);
   renew_velocity(m, chunk);
   if (m->rule == RULE_APIC)
@@ -101,7 +101,7 @@ gamut_status renew_momentum(void *self, const struct gamut_chunk *chunk)
     l = locate_in(m, chunk->serial, view.position, chunk->count);
     find_domains(m, chunk, &l);
     if (!m->transfer.locate(w, &l, true))
-      return stray_outside_tile(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
+      return lost_point_outside_tile(m, chunk->set, chunk->slot, &l, view.position, view.velocity);
   }
   m->transfer.scatter_momentum(w, &view, m->cell);
   return GAMUT_OK;
@@ -146,8 +146,8 @@ static void stretch_domains(struct model *m, const struct gamut_chunk *chunk)
   for (size_t i = 0; out != 0 && i < chunk->count; i++)
     for (unsigned k = 0; k < m->dimension && chunk->set->id[chunk->slot + i] >= 0; k++)
       if (!(gamut_end(chunk, m->field.domain_length, k)[i] > 0.0))
-        stray_note(m, chunk->set, chunk->slot + i,
-                   "an edge of its domain was turned round: the time step is too long");
+        lost_point_note(m, chunk->set, chunk->slot + i,
+                        "an edge of its domain was turned round: the time step is too long");
 }
 
 gamut_status gather_points(void *self, const struct gamut_chunk *chunk)
@@ -165,7 +165,7 @@ gamut_status gather_points(void *self, const struct gamut_chunk *chunk)
   struct locate l = locate_in(m, chunk->serial, x, count);
   find_domains(m, chunk, &l);
   if (!m->transfer.locate(w, &l, false))
-    return find_stray(m, chunk->set, chunk->slot, &l, x, v);
+    return find_lost_point(m, chunk->set, chunk->slot, &l, x, v);
   m->transfer.gather_gradient(w, count, m->grid.inverse_cell, gradient);
   finish_gradient(m, w, x[0], count, gradient);
   if (m->stress_update == UPDATE_USL)
@@ -208,13 +208,13 @@ gamut_status scatter_view(struct model *m, struct work *w, const struct gamut_se
   for (unsigned k = 0; k < m->dimension; k++)
     l.length[k] = view->length[k];
   if (!m->transfer.locate(w, &l, true))
-    return stray_outside_tile(m, set, slot, &l, view->position, view->velocity);
+    return lost_point_outside_tile(m, set, slot, &l, view->position, view->velocity);
   m->transfer.scatter(w, view, m->cell);
   sums_motion(w, view, m->dimension, energy);
   if (view->force[0] != NULL)
     sums_forces(w, view);
   if (m->bounded || m->geometry == GEOMETRY_AXISYMMETRIC)
-    stray_outside_domain(m, set, slot, view->real, view->position, view->mass);
+    lost_point_outside_domain(m, set, slot, view->real, view->position, view->mass);
   return GAMUT_OK;
 }
 
@@ -246,7 +246,7 @@ gamut_status scatter_points(void *self, const struct gamut_chunk *chunk)
   }
   w->omega_squared = most;
   if (unbounded)
-    stray_without_step(m, chunk, omega);
+    lost_point_without_step(m, chunk, omega);
   return scatter_view(m, w, chunk->set, chunk->serial, chunk->slot, &view,
                       gamut_end(chunk, m->field.energy, 0));
 }

@@ -25,9 +25,9 @@ double step_slow_mass(const struct model *m, double mass, double square)
 }
 
 static void add_node(const double *line, const double x[3], const double v[3],
-                     const double change[3], const double spin[3], struct nodes *s)
+                     const double change[3], const double angular_momentum[3], struct nodes *s)
 {
-  const double mass = line[LINE_MASS];
+  const double mass = line[NODE_MASS];
   double before = 0.0, after = 0.0, work = 0.0;
   for (int k = 0; k < 3; k++) {
     const double old = v[k] - change[k];
@@ -36,37 +36,37 @@ static void add_node(const double *line, const double x[3], const double v[3],
     after += v[k] * v[k];
     work += change[k] * (v[k] - 0.5 * change[k]);
     s->speed = fabs(v[k]) > s->speed ? fabs(v[k]) : s->speed;
-    s->sum[NODE_SPIN + k] += x[a] * spin[b] - x[b] * spin[a];
+    s->sum[TOTAL_ANGULAR_MOMENTUM + k] += x[a] * angular_momentum[b] - x[b] * angular_momentum[a];
   }
-  s->sum[NODE_BEFORE] += 0.5 * mass * before;
-  s->sum[NODE_AFTER] += 0.5 * mass * after;
-  s->sum[NODE_WORK] += mass * work;
+  s->sum[TOTAL_BEFORE] += 0.5 * mass * before;
+  s->sum[TOTAL_AFTER] += 0.5 * mass * after;
+  s->sum[TOTAL_WORK] += mass * work;
 }
 
 static void update_node(const struct model *m, double *line, const double x[3], double step,
                         struct nodes *s)
 {
-  const double mass = line[LINE_MASS], square = line[LINE_SQUARE];
+  const double mass = line[NODE_MASS], square = line[NODE_SQUARE];
   const bool touched = square < 0.0;
   const double over = 1.0 / mass;
   const bool heavy = mass > m->grid.empty && !m->limited;
   const double slow = heavy ? over : 1.0 / step_slow_mass(m, mass, square);
-  double v[3], change[3], whole[3], spin[3];
+  double v[3], change[3], whole[3], angular_momentum[3];
   for (int k = 0; k < 3; k++) {
-    const double push = step * line[LINE_FORCE + k];
+    const double push = step * line[NODE_FORCE + k];
     change[k] = push * slow;
     whole[k] = push * over;
-    spin[k] = line[LINE_MOMENTUM + k] + push;
-    v[k] = line[LINE_MOMENTUM + k] * over + change[k];
+    angular_momentum[k] = line[NODE_MOMENTUM + k] + push;
+    v[k] = line[NODE_MOMENTUM + k] * over + change[k];
   }
   if (!touched)
-    add_node(line, x, v, change, spin, s);
+    add_node(line, x, v, change, angular_momentum, s);
   for (int k = 0; k < 3; k++) {
-    line[LINE_VELOCITY + k] = v[k];
-    line[LINE_CHANGE + k] = touched ? change[k] : whole[k] + m->give_old * (v[k] - change[k]);
+    line[NODE_VELOCITY + k] = v[k];
+    line[NODE_CHANGE + k] = touched ? change[k] : whole[k] + m->give_old * (v[k] - change[k]);
   }
-  line[LINE_SHARE] = mass;
-  line[LINE_SLOW] = mass * slow;
+  line[NODE_FRACTION] = mass;
+  line[NODE_SLOW] = mass * slow;
 }
 
 static void update_block(struct model *m, size_t b, double step)
@@ -83,16 +83,16 @@ static void update_block(struct model *m, size_t b, double step)
     x[2] = corner[2] + m->cell * k;
     for (int j = 0; j < ny; j++) {
       x[1] = corner[1] + m->cell * j;
-      for (int i = 0; i < nx; i++, line += LINE) {
+      for (int i = 0; i < nx; i++, line += NODE_SIZE) {
         x[0] = corner[0] + m->cell * i;
-        if (line[LINE_MASS] > 0.0)
+        if (line[NODE_MASS] > 0.0)
           update_node(m, line, x, step, &sums);
         else
-          memset(line, 0, LINE * sizeof *line);
+          memset(line, 0, NODE_SIZE * sizeof *line);
       }
     }
   }
-  memcpy(m->node_sum + b * NODE_SUMS, sums.sum, sizeof sums.sum);
+  memcpy(m->node_sum + b * TOTAL_SUMS, sums.sum, sizeof sums.sum);
   m->node_speed[b] = sums.speed;
 }
 
@@ -111,7 +111,7 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
     num_threads(m->threads) if (m->grid.blocks >= FEW_BLOCKS)
   for (size_t b = 0; b < m->grid.blocks; b++)
     update_block(m, b, step);
-  gamut_sum(m->run, m->node_sum, m->grid.blocks, NODE_SUMS, m->nodes.sum);
+  gamut_sum(m->run, m->node_sum, m->grid.blocks, TOTAL_SUMS, m->nodes.sum);
   m->nodes.speed = fmax(0.0, gamut_most(m->run, m->node_speed, m->grid.blocks));
   for (size_t b = 0; b < m->grid.blocks; b++)
     *m->counts.node_lines += m->grid.block[b].line != NULL ? m->grid.block_nodes : 0;
@@ -124,20 +124,20 @@ gamut_status step_update_grid(void *self, const struct gamut_chunk *chunk)
 
 static void project_block(struct model *m, size_t b, bool carry)
 {
-  double sum[BLOCK_NODES_MAX * LINE] __attribute__((aligned(64)));
+  double sum[BLOCK_NODES_MAX * NODE_SIZE] __attribute__((aligned(64)));
   double *lines = m->grid.block[b].line;
   if (lines == NULL)
     return;
   grid_collect(&m->grid, &m->grid.block[b], sum);
   for (size_t i = 0; i < m->grid.block_nodes; i++) {
-    double *line = lines + i * LINE;
-    const double *from = sum + i * LINE;
+    double *line = lines + i * NODE_SIZE;
+    const double *from = sum + i * NODE_SIZE;
     for (int k = 0; k < 3; k++) {
       if (carry)
-        line[LINE_CHANGE + k] = line[LINE_VELOCITY + k];
-      line[LINE_VELOCITY + k] = from[LINE_MOMENTUM + k];
+        line[NODE_CHANGE + k] = line[NODE_VELOCITY + k];
+      line[NODE_VELOCITY + k] = from[NODE_MOMENTUM + k];
     }
-    line[LINE_SHARE] = from[LINE_MASS];
+    line[NODE_FRACTION] = from[NODE_MASS];
   }
 }
 
@@ -145,10 +145,10 @@ static void divide_block(struct model *m, size_t b)
 {
   double *lines = m->grid.block[b].line;
   for (size_t i = 0; i < m->grid.block_nodes && lines != NULL; i++) {
-    double *line = lines + i * LINE;
-    const double over = line[LINE_SHARE] > 0.0 ? 1.0 / line[LINE_SHARE] : 0.0;
+    double *line = lines + i * NODE_SIZE;
+    const double over = line[NODE_FRACTION] > 0.0 ? 1.0 / line[NODE_FRACTION] : 0.0;
     for (int k = 0; k < 3; k++)
-      line[LINE_VELOCITY + k] *= over;
+      line[NODE_VELOCITY + k] *= over;
   }
 }
 
@@ -177,8 +177,8 @@ gamut_status step_update_again(void *self, const struct gamut_chunk *chunk)
 {
   (void)chunk;
   struct model *m = self;
-  if (m->removal.stray.count > 0)
-    return stray_fail(m);
+  if (m->removal.lost_points.count > 0)
+    return lost_point_fail(m);
   if (step_project(m, true) != GAMUT_OK)
     return GAMUT_INTERNAL;
   step_settle(m);

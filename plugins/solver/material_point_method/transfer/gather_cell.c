@@ -15,12 +15,12 @@ INLINE void put(double *to, vector a, size_t lanes)
 }
 
 /* The cell's polynomial, one line a coefficient: 1, x, y, xy, z, xz, yz, xyz. */
-INLINE void linear_polynomial(const double *tile, double q[8 * LINE])
+INLINE void linear_polynomial(const double *tile, double q[8 * NODE_SIZE])
 {
   struct line c[8];
   for (int n = 0; n < 8; n++)
     line_read(&c[n],
-              tile + LINE * ((n & 1) + TILE_LINEAR * ((n >> 1 & 1) + TILE_LINEAR * (n >> 2))));
+              tile + NODE_SIZE * ((n & 1) + TILE_LINEAR * ((n >> 1 & 1) + TILE_LINEAR * (n >> 2))));
   for (int n = 0; n < 8; n += 2)
     line_subtract(&c[n + 1], &c[n]);
   for (int n = 0; n < 8; n += 4)
@@ -29,16 +29,16 @@ INLINE void linear_polynomial(const double *tile, double q[8 * LINE])
   for (int n = 0; n < 4; n++)
     line_subtract(&c[n + 4], &c[n]);
   for (int n = 0; n < 8; n++)
-    line_write(&c[n], q + LINE * n);
+    line_write(&c[n], q + NODE_SIZE * n);
 }
 
 INLINE void linear_gather(struct work *w, size_t count, int first, double inverse_cell,
                           double *const *gradient)
 {
-  double q[8 * LINE] __attribute__((aligned(64)));
+  double q[8 * NODE_SIZE] __attribute__((aligned(64)));
   for (size_t i = 0, end; i < count; i = end) {
     end = run_end(w->node, i, count);
-    linear_polynomial(w->tile + LINE * w->node[i], q);
+    linear_polynomial(w->tile + NODE_SIZE * w->node[i], q);
     for (size_t p = i; p < end; p += WIDTH) {
       const size_t lanes = count - p;
       const vector x = vector_read(w->place[0] + p), y = vector_read(w->place[1] + p),
@@ -96,12 +96,12 @@ INLINE void spline_sum(int nodes, const double *line, vector weight[3][NODES_MAX
   for (int z = 0; z < nodes; z++) {
     vector value = {0}, by_x = {0}, by_y = {0};
     for (int y = 0; y < nodes; y++) {
-      const double *c = line + LINE * tile * (y + tile * z);
+      const double *c = line + NODE_SIZE * tile * (y + tile * z);
       vector row = c[0] * weight[0][0], row_by_x = c[0] * slope[0][0];
       for (int x = 1; x < nodes; x++) {
-        row += c[LINE * x] * weight[0][x];
+        row += c[NODE_SIZE * x] * weight[0][x];
         if (gradient)
-          row_by_x += c[LINE * x] * slope[0][x];
+          row_by_x += c[NODE_SIZE * x] * slope[0][x];
       }
       value += row * weight[1][y];
       if (!gradient)
@@ -123,7 +123,7 @@ INLINE void spline_gather(enum shape shape, int nodes, struct work *w, size_t co
 {
   for (size_t i = 0, end; i < count; i = end) {
     end = run_end(w->node, i, count);
-    const double *tile = w->tile + LINE * w->node[i];
+    const double *tile = w->tile + NODE_SIZE * w->node[i];
     for (size_t p = i; p < end; p += WIDTH) {
       vector weight[3][NODES_MAX], slope[3][NODES_MAX], sum[4];
       for (int k = 0; k < 3; k++)

@@ -115,7 +115,7 @@ INLINE void NAMED(interpolate)(const double *tile, double weight[DIMENSION][NODE
       line_clear(&row);
       line_clear(&row_by_x);
       for (int x = 0; x < NODES; x++) {
-        line_read(&node, tile + LINE * (x + TILE * (y + TILE * z)));
+        line_read(&node, tile + NODE_SIZE * (x + TILE * (y + TILE * z)));
         line_add(&row, weight[0][x][l], &node);
         if (gradient)
           line_add(&row_by_x, slope[0][x][l], &node);
@@ -143,11 +143,12 @@ static void NAMED(gather)(struct work *w, size_t count, bool velocity)
   for (size_t i = 0; i < count; i += GAMUT_LANES) {
     double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
-    double out[GAMUT_LANES][LINE] __attribute__((aligned(64)));
+    double out[GAMUT_LANES][NODE_SIZE] __attribute__((aligned(64)));
     NAMED(weights)(w, i, 1.0, weight, slope);
     for (int l = 0; l < GAMUT_LANES; l++) {
       struct line sum[4];
-      NAMED(interpolate)(w->tile + LINE * w->node[i + (size_t)l], weight, slope, l, false, sum);
+      NAMED(interpolate)
+      (w->tile + NODE_SIZE * w->node[i + (size_t)l], weight, slope, l, false, sum);
       line_write(&sum[0], out[l]);
     }
     for (int c = 0; c < 6; c++)
@@ -162,11 +163,11 @@ static void NAMED(gather_gradient)(struct work *w, size_t count, double inverse_
   for (size_t i = 0; i < count; i += GAMUT_LANES) {
     double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
-    double out[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64)));
+    double out[DIMENSION + 1][GAMUT_LANES][NODE_SIZE] __attribute__((aligned(64)));
     NAMED(weights)(w, i, inverse_cell, weight, slope);
     for (int l = 0; l < GAMUT_LANES; l++) {
       struct line sum[4];
-      NAMED(interpolate)(w->tile + LINE * w->node[i + (size_t)l], weight, slope, l, true, sum);
+      NAMED(interpolate)(w->tile + NODE_SIZE * w->node[i + (size_t)l], weight, slope, l, true, sum);
       for (int k = 0; k <= DIMENSION; k++)
         line_write(&sum[k], out[k][l]);
     }
@@ -191,12 +192,13 @@ static void NAMED(gather_affine)(struct work *w, size_t count, double cell, doub
     double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double moment[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double second[DIMENSION][GAMUT_LANES];
-    double out[DIMENSION][GAMUT_LANES][LINE] __attribute__((aligned(64)));
+    double out[DIMENSION][GAMUT_LANES][NODE_SIZE] __attribute__((aligned(64)));
     NAMED(weights)(w, i, 1.0, weight, slope);
     NAMED(moments)(w, i, cell, weight, moment, second);
     for (int l = 0; l < GAMUT_LANES; l++) {
       struct line sum[4];
-      NAMED(interpolate)(w->tile + LINE * w->node[i + (size_t)l], weight, moment, l, true, sum);
+      NAMED(interpolate)
+      (w->tile + NODE_SIZE * w->node[i + (size_t)l], weight, moment, l, true, sum);
       for (int k = 0; k < DIMENSION; k++)
         line_write(&sum[k + 1], out[k][l]);
     }
@@ -210,7 +212,7 @@ static void NAMED(gather_affine)(struct work *w, size_t count, double cell, doub
 /* Lines of eight points: what goes with N, and with its slopes by x, y and z. Entries that stay
  * zero are not written. */
 INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
-                           double out[DIMENSION + 1][GAMUT_LANES][LINE])
+                           double out[DIMENSION + 1][GAMUT_LANES][NODE_SIZE])
 {
   double momentum[DIMENSION][GAMUT_LANES], outer[DIMENSION][GAMUT_LANES];
   double inner[6][GAMUT_LANES];
@@ -222,10 +224,10 @@ INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
       momentum[c][l] = mass[l] * v[l];
   }
   for (int l = 0; l < GAMUT_LANES; l++) {
-    out[0][l][LINE_MASS] = mass[l];
-    out[0][l][LINE_SQUARE] = p->squares ? mass[l] * mass[l] : 0.0;
+    out[0][l][NODE_MASS] = mass[l];
+    out[0][l][NODE_SQUARE] = p->squares ? mass[l] * mass[l] : 0.0;
     for (int c = 0; c < DIMENSION; c++)
-      out[0][l][LINE_MOMENTUM + c] = momentum[c][l];
+      out[0][l][NODE_MOMENTUM + c] = momentum[c][l];
   }
   if (!force)
     return;
@@ -250,28 +252,28 @@ INLINE void NAMED(prepare)(const struct point_view *p, size_t i, bool force,
       outer[0][l] += inner[2][l] / p->position[0][i + (size_t)l];
   for (int l = 0; l < GAMUT_LANES; l++)
     for (int c = 0; c < DIMENSION; c++) {
-      out[0][l][LINE_FORCE + c] = outer[c][l];
+      out[0][l][NODE_FORCE + c] = outer[c][l];
       for (int k = 0; k < DIMENSION; k++)
-        out[k + 1][l][LINE_FORCE + c] = inner[component[c][k]][l];
+        out[k + 1][l][NODE_FORCE + c] = inner[component[c][k]][l];
     }
 }
 
 /* The same of the affine part of their momentum, which goes with the first moments. */
 INLINE void NAMED(prepare_affine)(const struct point_view *p, size_t i, double cell,
                                   double second[DIMENSION][GAMUT_LANES],
-                                  double out[DIMENSION + 1][GAMUT_LANES][LINE])
+                                  double out[DIMENSION + 1][GAMUT_LANES][NODE_SIZE])
 {
   const double mean = MEAN_SECOND(cell);
   for (int c = 0; c < DIMENSION; c++)
     for (int k = 0; k < DIMENSION; k++)
       for (int l = 0; l < GAMUT_LANES; l++)
-        out[k + 1][l][LINE_MOMENTUM + c] =
+        out[k + 1][l][NODE_MOMENTUM + c] =
             p->mass[i + (size_t)l] * p->affine[3 * c + k][i + (size_t)l] * (mean / second[k][l]);
 }
 
 INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LANES],
                           double slope[DIMENSION][NODES][GAMUT_LANES], int l, bool force,
-                          double point[DIMENSION + 1][GAMUT_LANES][LINE])
+                          double point[DIMENSION + 1][GAMUT_LANES][NODE_SIZE])
 {
   struct line plain, by_x, by_y, by_z;
   line_read(&plain, point[0][l]);
@@ -300,7 +302,7 @@ INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LA
           line_add(&plain_y, WEIGHT(slope, 1, y, 0.0), &by_y_z);
       }
       for (int x = 0; x < NODES; x++) {
-        double *at = tile + LINE * (x + TILE * (y + TILE * z));
+        double *at = tile + NODE_SIZE * (x + TILE * (y + TILE * z));
         struct line node;
         line_read(&node, at);
         line_add(&node, weight[0][x][l], &plain_y);
@@ -315,8 +317,8 @@ INLINE void NAMED(spread)(double *tile, double weight[DIMENSION][NODES][GAMUT_LA
 INLINE void NAMED(scatter_as)(struct work *w, const struct point_view *p, double cell, bool force,
                               bool affine)
 {
-  double point[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64))) = {{{0.0}}};
-  double whirl[DIMENSION + 1][GAMUT_LANES][LINE] __attribute__((aligned(64))) = {{{0.0}}};
+  double point[DIMENSION + 1][GAMUT_LANES][NODE_SIZE] __attribute__((aligned(64))) = {{{0.0}}};
+  double whirl[DIMENSION + 1][GAMUT_LANES][NODE_SIZE] __attribute__((aligned(64))) = {{{0.0}}};
   for (size_t i = 0; i < p->real; i += GAMUT_LANES) {
     double weight[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
     double slope[DIMENSION][NODES][GAMUT_LANES] __attribute__((aligned(64)));
@@ -334,7 +336,7 @@ INLINE void NAMED(scatter_as)(struct work *w, const struct point_view *p, double
     }
     /* point by point, so that no sum depends on how a block is cut */
     for (int l = 0; l < (int)here; l++) {
-      double *at = w->sums + LINE * w->node[i + (size_t)l];
+      double *at = w->sums + NODE_SIZE * w->node[i + (size_t)l];
       NAMED(spread)(at, weight, slope, l, force, point);
       if (affine)
         NAMED(spread)(at, weight, moment, l, true, whirl);

@@ -18,7 +18,7 @@ typedef double vector __attribute__((vector_size(8 * WIDTH)));
 typedef vector aliased __attribute__((may_alias));
 typedef vector loose __attribute__((may_alias, aligned(8)));
 
-enum { PARTS = LINE / WIDTH };
+enum { PARTS = NODE_SIZE / WIDTH };
 
 struct line {
   vector part[PARTS];

@@ -46,10 +46,11 @@ INLINE void add_cell(double *tile, const vector sum[PENDING])
   for (int c = 0; c < 3; c++)
     r[4 + c] = sum[SUM_F + 3 * c] * sign[0] + sum[SUM_F + 3 * c + 1] * sign[1] +
                sum[SUM_F + 3 * c + 2] * sign[2] + sum[SUM_E + c];
-  r[LINE_SQUARE] = sum[SUM_S];
+  r[NODE_SQUARE] = sum[SUM_S];
   transpose(r);
   for (int n = 0; n < 8; n++) {
-    double *line = tile + LINE * ((n & 1) + TILE_LINEAR * ((n >> 1 & 1) + TILE_LINEAR * (n >> 2)));
+    double *line =
+        tile + NODE_SIZE * ((n & 1) + TILE_LINEAR * ((n >> 1 & 1) + TILE_LINEAR * (n >> 2)));
     vector_write(line, vector_read(line) + r[n]);
   }
 }
@@ -88,7 +89,7 @@ INLINE void linear_scatter(struct work *w, const struct point_view *p, int kinds
   for (size_t i = 0, end; i < real; i = end) {
     if (w->node[i] != cell) {
       if (cell >= 0)
-        add_cell(w->sums + LINE * cell, sum);
+        add_cell(w->sums + NODE_SIZE * cell, sum);
       for (int k = 0; k < PENDING; k++)
         sum[k] = (vector){0};
       cell = w->node[i];
@@ -110,7 +111,7 @@ static void finish(struct work *w)
     vector_write(w->pending[k], (vector){0});
   }
   if (w->pending_node >= 0)
-    add_cell(w->sums + LINE * w->pending_node, sum);
+    add_cell(w->sums + NODE_SIZE * w->pending_node, sum);
   w->pending_node = -1;
 }
 

@@ -8,7 +8,7 @@
 #ifndef MATERIAL_POINT_METHOD_SHAPES_H
 #define MATERIAL_POINT_METHOD_SHAPES_H
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 enum shape { SHAPE_LINEAR, SHAPE_GIMP, SHAPE_QUADRATIC, SHAPE_CUBIC, SHAPES };
 

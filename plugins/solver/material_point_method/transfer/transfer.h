@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <gamut/run.h>
+#include <gamut/host.h>
 
 #include "transfer/shapes.h"
 

@@ -96,7 +96,7 @@ static void add_affine(const struct model *m, const struct state *s, size_t i, d
     }
   for (unsigned k = 0; k < 3; k++) {
     const unsigned a = (k + 1) % 3, b = (k + 2) % 3;
-    sum[GONE_SPIN + k] += mass * (slope[3 * b + a] - slope[3 * a + b]);
+    sum[GONE_ANGULAR_MOMENTUM + k] += mass * (slope[3 * b + a] - slope[3 * a + b]);
   }
   sum[GONE_KINETIC] += 0.5 * mass * square;
 }
@@ -114,7 +114,7 @@ static void add_gone(const struct model *m, const struct state *s, size_t i, dou
   }
   for (unsigned k = 0; k < 3; k++) {
     const unsigned a = (k + 1) % 3, b = (k + 2) % 3;
-    sum[GONE_SPIN + k] += x[a] * push[b] - x[b] * push[a];
+    sum[GONE_ANGULAR_MOMENTUM + k] += x[a] * push[b] - x[b] * push[a];
   }
   sum[GONE_POINTS] += 1.0;
   sum[GONE_MASS] += s->mass[i];

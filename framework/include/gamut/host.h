@@ -5,8 +5,8 @@
  * between steps, unless a comment says otherwise. Objects belong to the run; a plugin frees none of
  * them.
  */
-#ifndef GAMUT_RUN_H
-#define GAMUT_RUN_H
+#ifndef GAMUT_HOST_H
+#define GAMUT_HOST_H
 
 #include <math.h>
 #include <stdbool.h>
@@ -15,10 +15,10 @@
 
 #include <gamut/status.h>
 
-struct gamut_run;    /* one run of one scene */
+struct gamut_run; /* one run of one scene */
 /* The checked values of one plugin's parameters, or of a measure's arguments. */
 struct gamut_values;
-struct gamut_body;   /* a body of the scene */
+struct gamut_body; /* a body of the scene */
 
 enum {
   GAMUT_LANES = 8,        /* blocks and chunks are padded to a multiple of this many points */
@@ -120,20 +120,20 @@ enum gamut_plane_rule { GAMUT_PLANE_FREE, GAMUT_PLANE_MIRROR, GAMUT_PLANE_PRESCR
 
 struct gamut_plane {
   double point[3];
-  double normal[3];    /* unit, pointing to where material may be */
+  double normal[3]; /* unit, pointing to where material may be */
   enum gamut_plane_rule normal_rule;
   enum gamut_plane_rule tangential_rule;
-  double velocity[3];  /* of the plane, in space; the prescribed one */
-  bool unilateral;     /* true: material may leave the plane (a wall) */
-  double friction;     /* Coulomb's coefficient, where unilateral */
+  double velocity[3]; /* of the plane, in space; the prescribed one */
+  bool unilateral;    /* true: material may leave the plane (a wall) */
+  double friction;    /* Coulomb's coefficient, where unilateral */
 };
 
 /* What a plane did, summed over the step just taken. Written by the solver, in a fixed order. */
 struct gamut_reaction {
-  double force[3]; /* on the plane by the material, averaged over the step, N (per metre or
-                      radian as the geometry has it) */
-  double work;     /* done by the plane on the material since the start, J */
-  double area;     /* in contact, m2 */
+  double force[3];   /* on the plane by the material, averaged over the step, N (per metre or
+                        radian as the geometry has it) */
+  double work;       /* done by the plane on the material since the start, J */
+  double area;       /* in contact, m2 */
   double impulse[3]; /* on the plane by the material since the start, N s */
 };
 
@@ -409,8 +409,7 @@ static inline void gamut_space_vector(const struct gamut_values *v, const char *
 /* Point and unit normal of a plane, from a group `plane` with vectors `point` and `normal`. It may
  * have any length but none; `expected` says in an error where it shall point. */
 static inline gamut_status gamut_read_plane(struct gamut_run *run, const struct gamut_values *v,
-                                            const char *expected, double point[3],
-                                            double normal[3])
+                                            const char *expected, double point[3], double normal[3])
 {
   double largest = 0.0, square = 0.0;
   gamut_space_vector(v, "plane.point", point);

@@ -1,4 +1,4 @@
-#include "error/exclusive.h"
+#include "base/exclusive.h"
 
 #include <pthread.h>
 

@@ -2,7 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/error.h"
+#include "base/error.h"
 
 enum { WORD_MAX = 64 };
 

@@ -1,4 +1,4 @@
-#include "error/excerpt.h"
+#include "base/excerpt.h"
 
 #include <stdbool.h>
 #include <stdint.h>

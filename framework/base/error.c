@@ -1,4 +1,4 @@
-#include "error/error.h"
+#include "base/error.h"
 
 #include <assert.h>
 #include <pthread.h>
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "error/excerpt.h"
+#include "base/excerpt.h"
 
 enum { KEPT_MAX = 50, TEXT_MAX = 2000, NAME_MAX_SHOWN = 300 };
 
@@ -22,7 +22,8 @@ struct trace {
   pthread_mutex_t lock;
   struct message *message;
   size_t count, room;
-  size_t seen[3], kept[3], told[3]; /* by message_kind: all, with their words, reported missing */
+  size_t seen[3], kept[3],
+      reported[3]; /* by message_kind: all, with their words, reported missing */
   gamut_status worst;
 };
 
@@ -255,11 +256,11 @@ void trace_print(struct trace *trace, FILE *stream)
     trace->message[k].printed = true;
   }
   for (enum message_kind kind = MESSAGE_ERROR; kind <= MESSAGE_WARNING; kind++) {
-    size_t silent = trace->seen[kind] - trace->kept[kind] - trace->told[kind];
+    size_t silent = trace->seen[kind] - trace->kept[kind] - trace->reported[kind];
     if (silent > 0)
       fprintf(stream, "%zu more %s%s not shown\n", silent,
               kind == MESSAGE_ERROR ? "error" : "warning", silent > 1 ? "s" : "");
-    trace->told[kind] += silent;
+    trace->reported[kind] += silent;
   }
   fflush(stream);
   pthread_mutex_unlock(&trace->lock);

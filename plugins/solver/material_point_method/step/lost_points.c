@@ -33,8 +33,9 @@ static const char *why_outside(double x, double v)
                "material failed";
 }
 
-gamut_status find_stray(const struct model *m, const struct gamut_set *set, size_t slot,
-                        const struct locate *l, const double *const x[3], const double *const v[3])
+gamut_status find_lost_point(const struct model *m, const struct gamut_set *set, size_t slot,
+                             const struct locate *l, const double *const x[3],
+                             const double *const v[3])
 {
   for (size_t i = 0; i < l->count; i++)
     for (unsigned k = 0; k < m->dimension; k++) {
@@ -47,10 +48,10 @@ gamut_status find_stray(const struct model *m, const struct gamut_set *set, size
   return gamut_fail(m->run, GAMUT_INTERNAL, "a point left its block, but none is outside");
 }
 
-void stray_note(struct model *m, const struct gamut_set *set, size_t slot, const char *what)
+void lost_point_note(struct model *m, const struct gamut_set *set, size_t slot, const char *what)
 {
-  struct stray *first = &m->removal.stray;
-#pragma omp critical(material_point_method_stray)
+  struct lost_points *first = &m->removal.lost_points;
+#pragma omp critical(material_point_method_lost_points)
   {
     const bool before = first->count == 0 || set->index < first->set->index ||
                         (set == first->set && set->id[slot] < set->id[first->slot]);
@@ -63,16 +64,16 @@ void stray_note(struct model *m, const struct gamut_set *set, size_t slot, const
   }
 }
 
-gamut_status stray_outside_tile(struct model *m, const struct gamut_set *set, size_t slot,
-                                const struct locate *l, const double *const x[3],
-                                const double *const v[3])
+gamut_status lost_point_outside_tile(struct model *m, const struct gamut_set *set, size_t slot,
+                                     const struct locate *l, const double *const x[3],
+                                     const double *const v[3])
 {
   bool any = false;
   for (size_t i = 0; i < l->count; i++)
     for (unsigned k = 0; k < m->dimension && set->id[slot + i] >= 0; k++) {
       if (within_tile(m, l, x[k][i], k))
         continue;
-      stray_note(m, set, slot + i, why_outside(x[k][i], v[k][i]));
+      lost_point_note(m, set, slot + i, why_outside(x[k][i], v[k][i]));
       any = true;
       break;
     }
@@ -80,8 +81,8 @@ gamut_status stray_outside_tile(struct model *m, const struct gamut_set *set, si
              : gamut_fail(m->run, GAMUT_INTERNAL, "a point left its block, but none is outside");
 }
 
-void stray_outside_domain(struct model *m, const struct gamut_set *set, size_t slot, size_t count,
-                          const double *const x[3], const double *mass)
+void lost_point_outside_domain(struct model *m, const struct gamut_set *set, size_t slot,
+                               size_t count, const double *const x[3], const double *mass)
 {
   for (size_t i = 0; i < count; i++) {
     bool inside = true;
@@ -89,7 +90,7 @@ void stray_outside_domain(struct model *m, const struct gamut_set *set, size_t s
       inside = inside && x[k][i] >= m->lower[k] && x[k][i] <= m->upper[k];
     if (mass[i] == 0.0 || (inside && (m->geometry != GEOMETRY_AXISYMMETRIC || x[0][i] > 0.0)))
       continue;
-    stray_note(
+    lost_point_note(
         m, set, slot + i,
         inside ? "it crossed the axis: the time step is too long or the cell too large"
                : "it left the domain; a larger solver.domain lets it go on, outside: remove takes "
@@ -97,22 +98,23 @@ void stray_outside_domain(struct model *m, const struct gamut_set *set, size_t s
   }
 }
 
-void stray_without_step(struct model *m, const struct gamut_chunk *chunk, const double *omega)
+void lost_point_without_step(struct model *m, const struct gamut_chunk *chunk, const double *omega)
 {
   const double *sound = gamut_end(chunk, m->field.sound_speed, 0);
   for (size_t i = 0; i < chunk->count; i++)
     if (chunk->set->id[chunk->slot + i] >= 0 && !(omega[i] <= DBL_MAX))
-      stray_note(m, chunk->set, chunk->slot + i,
-                 sound[i] >= 0.0 && sound[i] <= DBL_MAX
-                     ? "no time step is short enough for it: what bounds the step there "
-                       "(omega_squared) is no number, or beyond any"
-                     : "its sound speed is no number, without end, or negative: the material has "
-                       "none in this state, so that no time step is known");
+      lost_point_note(
+          m, chunk->set, chunk->slot + i,
+          sound[i] >= 0.0 && sound[i] <= DBL_MAX
+              ? "no time step is short enough for it: what bounds the step there "
+                "(omega_squared) is no number, or beyond any"
+              : "its sound speed is no number, without end, or negative: the material has "
+                "none in this state, so that no time step is known");
 }
 
-gamut_status stray_fail(struct model *m)
+gamut_status lost_point_fail(struct model *m)
 {
-  const struct stray *first = &m->removal.stray;
+  const struct lost_points *first = &m->removal.lost_points;
   double x[3], v[3];
   char what[400], more[64] = "";
   for (unsigned k = 0; k < 3; k++) {

@@ -34,7 +34,7 @@ void boxes_destroy(struct grid *g)
 static gamut_status new_pool(struct grid *g, size_t lines)
 {
   gamut_release(g->run, g->box);
-  g->box = gamut_allocate(g->run, box_label, lines * LINE * sizeof *g->box);
+  g->box = gamut_allocate(g->run, box_label, lines * NODE_SIZE * sizeof *g->box);
   g->box_capacity = g->box != NULL ? lines : 0;
   return g->box != NULL ? GAMUT_OK : GAMUT_INTERNAL;
 }
@@ -93,11 +93,11 @@ static double *take_box(struct grid *g, size_t nodes)
     g->box_used += nodes;
   }
   if (at + nodes <= g->box_capacity)
-    return g->box + at * LINE;
+    return g->box + at * NODE_SIZE;
   struct spill *spill;
 #pragma omp critical(material_point_method_spill)
   {
-    spill = gamut_allocate(g->run, box_label, sizeof *spill + nodes * LINE * sizeof(double));
+    spill = gamut_allocate(g->run, box_label, sizeof *spill + nodes * NODE_SIZE * sizeof(double));
     if (spill != NULL) {
       spill->next = g->spill;
       g->spill = spill;
@@ -112,7 +112,8 @@ struct overlap {
   int offset[3];          /* the tile's node that is the block's node 0 */
 };
 
-static bool overlap_of(const struct grid *g, const struct source *s, unsigned o, struct overlap *v)
+static bool overlap_of(const struct grid *g, const struct point_block *s, unsigned o,
+                       struct overlap *v)
 {
   for (unsigned k = 0; k < 3; k++) {
     const bool real = k < g->dimension;
@@ -139,13 +140,13 @@ static size_t tile_row(const struct grid *g, int x, int y, int z)
   return (size_t)(x + g->tile * (y + g->tile * z));
 }
 
-static size_t box_row(const struct source *s, int x, int y, int z)
+static size_t box_row(const struct point_block *s, int x, int y, int z)
 {
   const int nx = s->upper[0] - s->lower[0], ny = s->upper[1] - s->lower[1];
   return (size_t)((x - s->lower[0]) + nx * ((y - s->lower[1]) + ny * (z - s->lower[2])));
 }
 
-void grid_load(const struct grid *g, const struct source *s, double *tile)
+void grid_load(const struct grid *g, const struct point_block *s, double *tile)
 {
   const struct node_block *b = &g->block[s->block];
   for (unsigned o = 0; o < g->neighbours; o++) {
@@ -153,18 +154,18 @@ void grid_load(const struct grid *g, const struct source *s, double *tile)
     if (!overlap_of(g, s, o, &v))
       continue;
     const double *line = g->block[b->neighbour[o]].line;
-    const size_t bytes = (size_t)(v.upper[0] - v.lower[0]) * LINE * sizeof *line;
+    const size_t bytes = (size_t)(v.upper[0] - v.lower[0]) * NODE_SIZE * sizeof *line;
     for (int z = v.lower[2]; z < v.upper[2]; z++)
       for (int y = v.lower[1]; y < v.upper[1]; y++)
         if (line != NULL)
-          memcpy(tile + LINE * tile_row(g, v.lower[0], y, z), line + LINE * block_row(g, &v, y, z),
-                 bytes);
+          memcpy(tile + NODE_SIZE * tile_row(g, v.lower[0], y, z),
+                 line + NODE_SIZE * block_row(g, &v, y, z), bytes);
         else
-          memset(tile + LINE * tile_row(g, v.lower[0], y, z), 0, bytes);
+          memset(tile + NODE_SIZE * tile_row(g, v.lower[0], y, z), 0, bytes);
   }
 }
 
-static uint32_t reach_of(const struct grid *g, const struct source *s)
+static uint32_t reach_of(const struct grid *g, const struct point_block *s)
 {
   uint32_t reach = 0;
   struct overlap v;
@@ -176,7 +177,7 @@ static uint32_t reach_of(const struct grid *g, const struct source *s)
 
 gamut_status grid_leave(struct grid *g, size_t source, double *tile)
 {
-  struct source *s = &g->source[source];
+  struct point_block *s = &g->source[source];
   const int nx = s->upper[0] - s->lower[0], ny = s->upper[1] - s->lower[1],
             nz = s->upper[2] - s->lower[2];
   s->reach = reach_of(g, s);
@@ -185,27 +186,27 @@ gamut_status grid_leave(struct grid *g, size_t source, double *tile)
   s->box = take_box(g, (size_t)nx * (size_t)ny * (size_t)nz);
   if (s->box == NULL)
     return GAMUT_INTERNAL;
-  const size_t bytes = (size_t)nx * LINE * sizeof *s->box;
+  const size_t bytes = (size_t)nx * NODE_SIZE * sizeof *s->box;
   for (int z = s->lower[2]; z < s->upper[2]; z++)
     for (int y = s->lower[1]; y < s->upper[1]; y++) {
-      double *row = tile + LINE * tile_row(g, s->lower[0], y, z);
-      memcpy(s->box + LINE * box_row(s, s->lower[0], y, z), row, bytes);
+      double *row = tile + NODE_SIZE * tile_row(g, s->lower[0], y, z);
+      memcpy(s->box + NODE_SIZE * box_row(s, s->lower[0], y, z), row, bytes);
       memset(row, 0, bytes);
     }
   return GAMUT_OK;
 }
 
-static void add_box(const struct grid *g, const struct source *s, unsigned o, double *lines)
+static void add_box(const struct grid *g, const struct point_block *s, unsigned o, double *lines)
 {
   struct overlap v;
   if (!overlap_of(g, s, o, &v))
     return;
   const double *box = s->box;
-  const size_t doubles = (size_t)(v.upper[0] - v.lower[0]) * LINE;
+  const size_t doubles = (size_t)(v.upper[0] - v.lower[0]) * NODE_SIZE;
   for (int z = v.lower[2]; z < v.upper[2]; z++)
     for (int y = v.lower[1]; y < v.upper[1]; y++) {
-      const double *restrict from = box + LINE * box_row(s, v.lower[0], y, z);
-      double *restrict to = lines + LINE * block_row(g, &v, y, z);
+      const double *restrict from = box + NODE_SIZE * box_row(s, v.lower[0], y, z);
+      double *restrict to = lines + NODE_SIZE * block_row(g, &v, y, z);
 #pragma omp simd
       for (size_t i = 0; i < doubles; i++)
         to[i] += from[i];
@@ -214,7 +215,7 @@ static void add_box(const struct grid *g, const struct source *s, unsigned o, do
 
 void grid_collect(const struct grid *g, const struct node_block *b, double *lines)
 {
-  memset(lines, 0, g->block_nodes * LINE * sizeof *lines);
+  memset(lines, 0, g->block_nodes * NODE_SIZE * sizeof *lines);
   for (unsigned o = 0; o < g->neighbours; o++) {
     if (b->neighbour[o] < 0)
       continue;

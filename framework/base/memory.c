@@ -1,4 +1,4 @@
-#include "error/memory.h"
+#include "base/memory.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
