@@ -8,16 +8,16 @@
 #include "random/stream.h"
 
 /* Over independent standard normal x and y: a linear and a quadratic quantity. */
-enum { PARAMETERS = 2, QUANTITIES = 2, CAPACITY = 4096, RUNS_MAX = 1 << 20 };
-static const double true_mean[QUANTITIES] = {3, 1}, true_variance[QUANTITIES] = {4.25, 2.25};
+enum { PARAMETERS = 2, RESULTS = 2, CAPACITY = 4096, RUNS_MAX = 1 << 20 };
+static const double true_mean[RESULTS] = {3, 1}, true_variance[RESULTS] = {4.25, 2.25};
 
-static void quantities(const double *point, double *value)
+static void quantities(const double *sample, double *result)
 {
   double x[PARAMETERS];
   for (int k = 0; k < PARAMETERS; k++)
-    x[k] = isnan(point[k]) ? 0 : point[k]; /* at its mean */
-  value[0] = 3 + 2 * x[0] - 0.5 * x[1];
-  value[1] = x[0] * x[0] + 0.5 * x[1];
+    x[k] = isnan(sample[k]) ? 0 : sample[k]; /* at its mean */
+  result[0] = 3 + 2 * x[0] - 0.5 * x[1];
+  result[1] = x[0] * x[0] + 0.5 * x[1];
 }
 
 struct estimator_operations {
@@ -29,7 +29,7 @@ struct study {
   const struct estimator_operations *ops;
   void *self;
   struct gamut_batch batch;
-  double *value;
+  double *result;
   size_t runs;
 };
 
@@ -49,13 +49,13 @@ static gamut_status study_new(struct study *study, struct bare_run *run)
 {
   *study = (struct study){.ops = run->ops};
   study->batch = (struct gamut_batch){
-      .parameters = PARAMETERS, .quantities = QUANTITIES, .capacity = CAPACITY};
-  study->batch.point = calloc(CAPACITY * PARAMETERS, sizeof(double));
+      .parameters = PARAMETERS, .results = RESULTS, .capacity = CAPACITY};
+  study->batch.sample = calloc(CAPACITY * PARAMETERS, sizeof(double));
   study->batch.level = calloc(CAPACITY, sizeof(int));
-  study->value = calloc(CAPACITY * QUANTITIES, sizeof(double));
-  study->batch.value = study->value;
+  study->result = calloc(CAPACITY * RESULTS, sizeof(double));
+  study->batch.result = study->result;
   const struct gamut_study_shape shape = {.parameters = PARAMETERS,
-                                          .quantities = QUANTITIES,
+                                          .results = RESULTS,
                                           .levels = levels_of(run->specimen.values),
                                           .stream = stream_make(1, 0, "conformance")};
   return study->ops->create(bare_run_handle(run), run->specimen.values, &shape, &study->self);
@@ -65,9 +65,9 @@ static void study_free(struct study *study)
 {
   if (study->self)
     study->ops->destroy(study->self);
-  free(study->batch.point);
+  free(study->batch.sample);
   free(study->batch.level);
-  free(study->value);
+  free(study->result);
 }
 
 /* One batch; false at the end or on failure. */
@@ -79,7 +79,7 @@ static bool study_batch(struct study *study, gamut_status *status)
   if (*status != GAMUT_OK || batch->rows == 0 || batch->rows > CAPACITY)
     return false;
   for (size_t r = 0; r < batch->rows; r++)
-    quantities(batch->point + r * PARAMETERS, study->value + r * QUANTITIES);
+    quantities(batch->sample + r * PARAMETERS, study->result + r * RESULTS);
   study->runs += batch->rows;
   *status = study->ops->tell(study->self, batch);
   return *status == GAMUT_OK && study->runs < RUNS_MAX;
@@ -94,10 +94,10 @@ static gamut_status study_end(struct study *study)
 }
 
 struct result {
-  double mean[QUANTITIES], variance[QUANTITIES], mean_error[QUANTITIES], variance_error[QUANTITIES];
-  double mean_lower[QUANTITIES], mean_upper[QUANTITIES];
-  double variance_lower[QUANTITIES], variance_upper[QUANTITIES];
-  double heavy_tail[QUANTITIES];
+  double mean[RESULTS], variance[RESULTS], mean_error[RESULTS], variance_error[RESULTS];
+  double mean_lower[RESULTS], mean_upper[RESULTS];
+  double variance_lower[RESULTS], variance_upper[RESULTS];
+  double heavy_tail[RESULTS];
 };
 
 /* Where runs are no sample there is nothing to report. */
@@ -127,8 +127,8 @@ static void prove_interval(struct checks *checks, const char *what, double truth
 static void prove_integrals(struct checks *checks, const struct study *study,
                             const struct result *result)
 {
-  static const char *const name[QUANTITIES] = {"a linear", "a quadratic"};
-  for (int q = 0; q < QUANTITIES; q++) {
+  static const char *const name[RESULTS] = {"a linear", "a quadratic"};
+  for (int q = 0; q < RESULTS; q++) {
     check_figure(checks, fabs(result->mean[q] - true_mean[q]),
                  4 * result->mean_error[q] + 1e-9 * true_mean[q],
                  "mean of %s quantity after %zu runs, against four of its error bars", name[q],

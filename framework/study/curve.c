@@ -9,7 +9,7 @@ static const double same_axis = 1e-12;
 static const double near_end = 1e-9;
 
 /* Units and kinds, from a run that has been made. */
-gamut_status values_plan(struct study *study, const struct gamut_run *run)
+gamut_status measured_plan(struct study *study, const struct gamut_run *run)
 {
   size_t count;
   struct history *const *history = run_histories(run, &count);
@@ -29,20 +29,20 @@ gamut_status values_plan(struct study *study, const struct gamut_run *run)
                     sizeof why);
     m->count = m->curve ? 0 : 1;
   }
-  values_place(study);
+  measured_place(study);
   return GAMUT_OK;
 }
 
-void values_place(struct study *study)
+void measured_place(struct study *study)
 {
-  study->values = 0;
+  study->results = 0;
   for (size_t i = 0; i < study->quantities; i++) {
-    study->measured[i].first = study->values;
-    study->values += study->measured[i].count;
+    study->measured[i].first = study->results;
+    study->results += study->measured[i].count;
   }
 }
 
-gamut_status values_axes(struct study *study, const struct gamut_run *run)
+gamut_status measured_axes(struct study *study, const struct gamut_run *run)
 {
   size_t count;
   struct history *const *history = run_histories(run, &count);
@@ -57,7 +57,7 @@ gamut_status values_axes(struct study *study, const struct gamut_run *run)
       memcpy(m->at, history[i]->time, m->count * sizeof *m->at);
     }
   }
-  values_place(study);
+  measured_place(study);
   return GAMUT_OK;
 }
 
@@ -126,12 +126,12 @@ static bool take_own(const struct history *h, struct own_curve *own)
   return true;
 }
 
-gamut_status values_take(const struct study *study, const struct gamut_run *run,
+gamut_status measured_take(const struct study *study, const struct gamut_run *run,
                          struct outcome *outcome)
 {
   size_t count;
   struct history *const *history = run_histories(run, &count);
-  double *value = outcome->value;
+  double *result = outcome->result;
   for (size_t i = 0; i < study->quantities; i++) {
     const struct measured *m = &study->measured[i];
     char unit[64], why[200];
@@ -139,10 +139,10 @@ gamut_status values_take(const struct study *study, const struct gamut_run *run,
       if (!take_own(history[i], &outcome->own[i]))
         return GAMUT_INTERNAL;
     } else if (m->curve) {
-      take_curve(m, history[i], value + m->first);
-    } else if (!reduction_value(&m->quantity->reduction, history[i], &value[m->first], unit,
+      take_curve(m, history[i], result + m->first);
+    } else if (!reduction_value(&m->quantity->reduction, history[i], &result[m->first], unit,
                                 sizeof unit, why, sizeof why)) {
-      value[m->first] = NAN;
+      result[m->first] = NAN;
     }
   }
   return GAMUT_OK;
@@ -154,7 +154,7 @@ size_t curve_overlap(const struct study *study, const struct measured *m, size_t
   for (size_t i = 0; i < m->count; i++) {
     bool whole = true;
     for (size_t r = 0; r < study->runs && whole; r++)
-      whole = study->outcome[r].reason || isfinite(study->outcome[r].value[m->first + i]);
+      whole = study->outcome[r].reason || isfinite(study->outcome[r].result[m->first + i]);
     if (whole)
       kept[count++] = i;
   }

@@ -54,7 +54,7 @@ static const struct gamut_host study_host = {
 /* Fixed by the scene alone, so that batches are the same whatever the machine. */
 static size_t batch_rows(const struct study *study)
 {
-  size_t columns = study->values + study->parameters + 1;
+  size_t columns = study->results + study->parameters + 1;
   size_t rows = BYTES_A_BATCH / (columns * sizeof(double));
   return rows < ROWS_MIN ? ROWS_MIN : rows > ROWS_MAX ? ROWS_MAX : rows;
 }
@@ -64,7 +64,7 @@ gamut_status estimator_new(struct study *study)
   gamut_status status;
   const struct instance *instance = &study->scene->estimator;
   const struct gamut_plugin *plugin;
-  size_t rows = batch_rows(study), values = study->values;
+  size_t rows = batch_rows(study), results = study->results;
   TRY(registry_open(study->registry, instance->descriptor, study->trace, &plugin));
   const struct estimator_operations *ops = plugin->ops;
   if (!ops->create || !ops->destroy || !ops->ask || !ops->tell || (!study->table && !ops->report))
@@ -73,31 +73,31 @@ gamut_status estimator_new(struct study *study)
                       instance->descriptor->id, study->table ? "" : ", report");
   struct gamut_batch *batch = &study->batch;
   *batch =
-      (struct gamut_batch){.parameters = study->parameters, .quantities = values, .capacity = rows};
-  batch->point = calloc(rows * study->parameters + 1, sizeof *batch->point);
+      (struct gamut_batch){.parameters = study->parameters, .results = results, .capacity = rows};
+  batch->sample = calloc(rows * study->parameters + 1, sizeof *batch->sample);
   batch->level = calloc(rows, sizeof *batch->level);
-  batch->value = study->told = calloc(rows * values + 1, sizeof *study->told);
-  double *moment = study->moment = calloc(MOMENTS * values + 1, sizeof *moment);
+  batch->result = study->batch_result = calloc(rows * results + 1, sizeof *study->batch_result);
+  double *moment = study->moment = calloc(MOMENTS * results + 1, sizeof *moment);
   study->asked_on = calloc(study->levels + 1, sizeof *study->asked_on);
-  if (!batch->point || !batch->level || !study->told || !moment || !study->asked_on)
+  if (!batch->sample || !batch->level || !study->batch_result || !moment || !study->asked_on)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
-  for (size_t i = 0; i < MOMENTS * values; i++)
+  for (size_t i = 0; i < MOMENTS * results; i++)
     moment[i] = NAN;
   study->moments = (struct gamut_moments){.mean = moment,
-                                          .variance = moment + values,
-                                          .mean_error = moment + 2 * values,
-                                          .variance_error = moment + 3 * values,
-                                          .mean_lower = moment + 4 * values,
-                                          .mean_upper = moment + 5 * values,
-                                          .variance_lower = moment + 6 * values,
-                                          .variance_upper = moment + 7 * values,
-                                          .heavy_tail = moment + 8 * values};
+                                          .variance = moment + results,
+                                          .mean_error = moment + 2 * results,
+                                          .variance_error = moment + 3 * results,
+                                          .mean_lower = moment + 4 * results,
+                                          .mean_upper = moment + 5 * results,
+                                          .variance_lower = moment + 6 * results,
+                                          .variance_upper = moment + 7 * results,
+                                          .heavy_tail = moment + 8 * results};
   study->host = (struct estimator_host){
       .head = {&study_host}, .trace = study->trace, .node = instance->node};
   host_of_values(instance->values, &study_host);
   const struct gamut_study_shape shape = {
       .parameters = study->parameters,
-      .quantities = values,
+      .results = results,
       .levels = study->levels,
       .stream = stream_make(study->scene->seed, 0, "uncertainty.estimator")};
   TRY(GUARDED(instance->descriptor->id, ops->create((struct gamut_run *)(void *)&study->host,
@@ -111,9 +111,9 @@ void estimator_free(struct study *study)
 {
   if (study->ops)
     study->ops->destroy(study->self);
-  free(study->batch.point);
+  free(study->batch.sample);
   free(study->batch.level);
-  free(study->told);
+  free(study->batch_result);
   free(study->moment);
   free(study->asked_on);
 }

@@ -14,8 +14,8 @@ static gamut_status count_runs(struct study *study, struct study_forecast *f)
   gamut_status status;
   struct gamut_batch *batch = &study->batch;
   const char *name = study->scene->estimator.descriptor->id;
-  for (size_t i = 0; i < batch->capacity * study->values; i++)
-    study->told[i] = NAN;
+  for (size_t i = 0; i < batch->capacity * study->results; i++)
+    study->batch_result[i] = NAN;
   do {
     batch->rows = 0;
     TRY(GUARDED(name, study->ops->ask(study->self, batch)));
@@ -33,7 +33,7 @@ gamut_status study_forecast(struct study *study, const struct gamut_run *run,
 {
   gamut_status status;
   *f = (struct study_forecast){.threads = study->threads, .nominal = !study->table};
-  TRY(values_plan(study, run));
+  TRY(measured_plan(study, run));
   TRY(estimator_new(study));
   TRY(count_runs(study, f));
   const double runs = (double)f->runs;
@@ -42,7 +42,7 @@ gamut_status study_forecast(struct study *study, const struct gamut_run *run,
   if (one->known)
     f->seconds = one->seconds * (ceil(runs / f->threads) + f->nominal);
   f->bytes = (double)one->bytes * f->threads +
-             runs * (double)(study->values + study->parameters) * sizeof(double);
+             runs * (double)(study->results + study->parameters) * sizeof(double);
 done:
   return status;
 }

@@ -161,8 +161,8 @@ static void write_outcome(const struct study *study, const struct outcome *o, FI
           o->steps, o->points, o->wall, o->cpu);
   for (size_t i = 0; i < study->parameters; i++)
     fprintf(file, " %a", o->parameter[i]);
-  for (size_t i = 0; i < study->values; i++)
-    fprintf(file, " %a", o->value[i]);
+  for (size_t i = 0; i < study->results; i++)
+    fprintf(file, " %a", o->result[i]);
   for (size_t i = 0; i < o->owns; i++)
     if (study->measured[i].curve)
       write_own(file, &o->own[i]);
@@ -273,7 +273,7 @@ static bool read_curve(struct study *study, char *text)
   bool good = m->at != NULL;
   for (size_t k = 0; good && k < count; k++)
     good = next_number(&text, &m->at[k]);
-  values_place(study);
+  measured_place(study);
   return good;
 }
 
@@ -318,8 +318,8 @@ static bool read_outcome(struct study *study, char *text, struct outcome *o)
   o->level = level;
   for (size_t i = 0; good && i < study->parameters; i++)
     good = next_number(&text, &o->parameter[i]);
-  for (size_t i = 0; good && i < study->values; i++)
-    good = next_number(&text, &o->value[i]);
+  for (size_t i = 0; good && i < study->results; i++)
+    good = next_number(&text, &o->result[i]);
   for (size_t i = 0; good && i < o->owns; i++)
     good = !study->measured[i].curve || read_own(&text, &o->own[i]);
   if (good && strncmp(text, " failed ", 8) == 0)

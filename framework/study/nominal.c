@@ -84,7 +84,7 @@ gamut_status plan_first_level(struct study *study)
   struct gamut_run *run;
   gamut_status status = first_level(study, &scene, &run);
   if (status == GAMUT_OK)
-    status = values_plan(study, run);
+    status = measured_plan(study, run);
   run_free(run);
   scene_free(scene);
   return status;
@@ -115,8 +115,8 @@ static gamut_status nominal_begin(struct study *study)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t i = 0; i < study->parameters; i++)
     nominal->parameter[i] = study->scene->random_parameter[i].distribution->mean;
-  for (size_t i = 0; i < study->values; i++)
-    nominal->value[i] = NAN;
+  for (size_t i = 0; i < study->results; i++)
+    nominal->result[i] = NAN;
   return GAMUT_OK;
 }
 
@@ -136,10 +136,10 @@ static gamut_status march_nominal(struct study *study, struct gamut_run *run)
     goto done;
   }
   if (marched == GAMUT_OK)
-    TRY(values_axes(study, run));
+    TRY(measured_axes(study, run));
   TRY(nominal_begin(study));
   if (marched == GAMUT_OK)
-    TRY(values_take(study, run, nominal));
+    TRY(measured_take(study, run, nominal));
   else
     nominal->reason = memory_copy(words ? words : status_text(marched));
   const struct run_cost cost = run_cost_of(run);
@@ -166,7 +166,7 @@ static gamut_status prepare_sample(struct study *study, const char *folder)
   const struct gamut_plugin *plugin;
   const struct run_options options = options_of(study);
   TRY(run_new(study->scene, study->registry, &options, study->trace, &run));
-  TRY(values_plan(study, run));
+  TRY(measured_plan(study, run));
   TRY(registry_open(study->registry, study->scene->estimator.descriptor, study->trace, &plugin));
   log_digest(study);
   TRY(begin(study, folder));

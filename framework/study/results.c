@@ -101,7 +101,7 @@ static void add_numbers(struct table *table, const struct study *study)
     double *value = number_column(table, "quantities", m->quantity->name, m->unit,
                                   m->quantity->measure ? m->quantity->measure->doc : NULL);
     for (size_t r = 0; value && r < table->rows; r++)
-      value[r] = row_of(study, r)->value[m->first];
+      value[r] = row_of(study, r)->result[m->first];
   }
 }
 
@@ -163,14 +163,14 @@ static double *cut_curve(const struct study *study, const struct measured *m, bo
                                  moments->mean_upper + m->first,
                                  moments->variance_lower + m->first,
                                  moments->variance_upper + m->first,
-                                 study->nominal.value + m->first};
+                                 study->nominal.result + m->first};
   for (size_t s = 0; s < PARTS; s++)
     for (size_t i = 0; i < n; i++)
       memory[s * n + i] = source[s][kept[i]];
   for (size_t r = 0; r < runs; r++)
     for (size_t i = 0; i < n; i++)
       memory[(PARTS + r) * n + i] =
-          study->outcome[r].reason ? NAN : study->outcome[r].value[m->first + kept[i]];
+          study->outcome[r].reason ? NAN : study->outcome[r].result[m->first + kept[i]];
   *curve = (struct table_curve){.name = m->quantity->name,
                                 .unit = m->unit,
                                 .axis = m->axis,
@@ -197,7 +197,7 @@ static gamut_status write_curves(struct study *study, struct store *store)
   struct table_curve *curve = calloc(study->quantities + 1, sizeof *curve);
   double **memory = calloc(study->quantities + 1, sizeof *memory);
   size_t curves = 0;
-  bool with_runs = study->values * study->runs <= KEPT_NUMBERS;
+  bool with_runs = study->results * study->runs <= KEPT_NUMBERS;
   bool good = curve && memory;
   for (size_t i = 0; good && i < study->quantities; i++) {
     if (!study->measured[i].curve)

@@ -158,7 +158,7 @@ static gamut_status list_rows(struct study *study)
       return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
     }
     const size_t number = study->runs++;
-    TRY(draw_run(study, number, batch->point + r * study->parameters, o));
+    TRY(draw_run(study, number, batch->sample + r * study->parameters, o));
     TRY(recall(study, number));
   }
 done:
@@ -222,8 +222,8 @@ static gamut_status tell(struct study *study, size_t first)
 {
   for (size_t r = 0; r < study->batch.rows; r++) {
     const struct outcome *o = &study->outcome[first + r];
-    for (size_t q = 0; q < study->values; q++)
-      study->told[r * study->values + q] = o->reason ? NAN : o->value[q];
+    for (size_t q = 0; q < study->results; q++)
+      study->batch_result[r * study->results + q] = o->reason ? NAN : o->result[q];
   }
   return GUARDED(estimator_of(study), study->ops->tell(study->self, &study->batch));
 }
@@ -300,11 +300,11 @@ static void warn_of_sameness(const struct study *study)
     const struct outcome *one = &study->outcome[i - 1], *next = &study->outcome[i];
     if (one->level != next->level || one->reason || next->reason)
       continue;
-    bool alike = memcmp(one->value, next->value, study->values * sizeof *one->value) == 0;
+    bool alike = memcmp(one->result, next->result, study->results * sizeof *one->result) == 0;
     same += alike;
     other += !alike;
   }
-  if (same > 0 && other == 0 && study->values > 0 && study->parameters > 0)
+  if (same > 0 && other == 0 && study->results > 0 && study->parameters > 0)
     trace_warn_at(study->trace, NULL, "uncertainty", "{mean:, cv:} in place of a number",
                   "%zu runs gave the same values to the last bit: no quantity depends on what is "
                   "random",

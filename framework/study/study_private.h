@@ -16,7 +16,7 @@ struct level {
   struct scene_override *override; /* nodes of the study's scene */
 };
 
-/* A quantity of the scene among the values of a run: columns first to first + count - 1. */
+/* A quantity of the scene among the results of a run: columns first to first + count - 1. */
 struct measured {
   const struct quantity *quantity;
   char unit[64];
@@ -39,7 +39,7 @@ struct outcome {
   bool done;         /* made, or found in the log */
   char *reason;      /* why it failed; null: it did not */
   double *parameter; /* what was drawn; the mean where nothing was */
-  double *value;     /* NaN where there is none */
+  double *result;    /* NaN where there is none */
   struct own_curve *own; /* where runs are no sample: one a quantity */
   size_t owns;
   bool again; /* what was drawn first was not possible */
@@ -88,14 +88,14 @@ struct study {
   double *lower; /* Cholesky's factor; null: independent */
 
   struct measured *measured; /* one a quantity of the scene */
-  size_t quantities, values;
+  size_t quantities, results;
 
   struct estimator_host host;
   const struct estimator_operations *ops;
   void *self;
   struct gamut_batch batch;
-  double *told;
-  double *moment; /* MOMENTS of each value, once reported */
+  double *batch_result; /* what batch.result shows */
+  double *moment; /* MOMENTS of each result, once reported */
   struct gamut_moments moments;
 
   struct outcome nominal;  /* the run at the means, where runs are a sample; in no statistic */
@@ -133,11 +133,11 @@ gamut_status draw_run(struct study *, size_t number, const double *normal, struc
 void draw_row(const struct study *, const double *normal, double *parameter);
 
 /* curve.c: what a run's histories give. */
-gamut_status values_plan(struct study *, const struct gamut_run *);
-gamut_status values_axes(struct study *, const struct gamut_run *);
-void values_place(struct study *); /* columns, once all counts are known */
+gamut_status measured_plan(struct study *, const struct gamut_run *);
+gamut_status measured_axes(struct study *, const struct gamut_run *);
+void measured_place(struct study *); /* columns, once all counts are known */
 /* GAMUT_INTERNAL when out of memory. */
-gamut_status values_take(const struct study *, const struct gamut_run *, struct outcome *);
+gamut_status measured_take(const struct study *, const struct gamut_run *, struct outcome *);
 /* Points of the common axis that every run that did not fail has; `kept` gets their numbers. */
 size_t curve_overlap(const struct study *, const struct measured *, size_t *kept);
 

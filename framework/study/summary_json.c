@@ -25,7 +25,7 @@ static size_t count_values(const struct study *study, const struct measured *m)
   size_t count = 0;
   for (size_t r = 0; r < study->runs; r++)
     count += study->outcome[r].done && !study->outcome[r].reason &&
-             isfinite(study->outcome[r].value[m->first]);
+             isfinite(study->outcome[r].result[m->first]);
   return count;
 }
 
@@ -210,9 +210,9 @@ static double level_mean(const struct study *study, const struct measured *m, si
   double sum = 0, count = 0;
   for (size_t r = 0; r < study->runs; r++) {
     const struct outcome *o = &study->outcome[r];
-    if (o->level != level || !o->done || o->reason || !isfinite(o->value[m->first]))
+    if (o->level != level || !o->done || o->reason || !isfinite(o->result[m->first]))
       continue;
-    sum += o->value[m->first];
+    sum += o->result[m->first];
     count += 1;
   }
   return sum / count;
@@ -304,7 +304,7 @@ static json_t *nominal_json(const struct study *study)
   for (size_t k = 0; k < study->quantities; k++)
     if (!study->measured[k].curve)
       json_object_set_new(values, study->measured[k].quantity->name,
-                          number(nominal->value[study->measured[k].first]));
+                          number(nominal->result[study->measured[k].first]));
   json_object_set_new(entry, "quantities", values);
   return entry;
 }

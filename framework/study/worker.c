@@ -9,16 +9,16 @@
 bool outcome_room(struct study *study, struct outcome *outcome)
 {
   outcome->parameter = calloc(study->parameters + 1, sizeof(double));
-  outcome->value = calloc(study->values + 1, sizeof(double));
+  outcome->result = calloc(study->results + 1, sizeof(double));
   outcome->owns = study->table ? study->quantities : 0;
   outcome->own = calloc(outcome->owns + 1, sizeof *outcome->own);
-  return outcome->parameter && outcome->value && outcome->own;
+  return outcome->parameter && outcome->result && outcome->own;
 }
 
 void outcome_clear(struct outcome *outcome)
 {
   free(outcome->parameter);
-  free(outcome->value);
+  free(outcome->result);
   free(outcome->reason);
   for (size_t i = 0; outcome->own && i < outcome->owns; i++) {
     free(outcome->own[i].at);
@@ -103,7 +103,7 @@ static gamut_status collect(const struct study *study, const struct gamut_run *r
   const struct run_cost cost = run_cost_of(run);
   outcome->steps = cost.steps;
   outcome->points = cost.points;
-  if (!outcome->reason && values_take(study, run, outcome) != GAMUT_OK)
+  if (!outcome->reason && measured_take(study, run, outcome) != GAMUT_OK)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
   return GAMUT_OK;
 }
@@ -133,8 +133,8 @@ gamut_status work_run(struct study *study, struct worker *worker, struct outcome
   struct gamut_run *run = NULL;
   struct trace *trace = trace_new();
   double wall = clock_seconds(CLOCK_MONOTONIC), cpu = clock_seconds(CLOCK_THREAD_CPUTIME_ID);
-  for (size_t i = 0; i < study->values; i++)
-    outcome->value[i] = NAN;
+  for (size_t i = 0; i < study->results; i++)
+    outcome->result[i] = NAN;
   if (trace)
     status = make(study, worker, outcome, trace, &run);
   if (status == GAMUT_OK)

@@ -1,5 +1,8 @@
 /* Estimators: moments of quantities under random parameters. An estimator never runs a solver: it
- * is asked for the next parameter points and told the quantities that came back. */
+ * is asked which runs are to be made, and told the results that came back.
+ *
+ * A row of a batch is one run: its sample is what the random parameters take, its results are the
+ * numbers that the quantities of the scene came to, one of a scalar, one a place along a curve. */
 #ifndef GAMUT_ESTIMATOR_H
 #define GAMUT_ESTIMATOR_H
 
@@ -8,28 +11,28 @@
 /* A batch of runs to make. The estimator fixes its size; decisions fall only between batches, so a
  * study gives the same tables for any number of threads. Arrays are owned by the core. */
 struct gamut_batch {
-  size_t parameters;  /* random parameters, independent standard normal variables here */
-  size_t quantities;  /* values that come back from each run */
-  size_t capacity;    /* rows there is room for */
-  size_t rows;        /* out of ask: runs wanted; 0 ends the study */
-  double *point;      /* out of ask: rows x parameters, in units of standard deviations; NaN: the
-                         parameter stays at its mean */
-  int *level;         /* out of ask: which of the study's levels (lists of scene overrides); 0 where
-                         there are none */
-  const double *value; /* into tell: rows x quantities; NaN where the run failed */
+  size_t parameters; /* random parameters, independent standard normal variables here */
+  size_t results;    /* numbers that come back from each run */
+  size_t capacity;   /* rows there is room for */
+  size_t rows;       /* out of ask: runs wanted; 0 ends the study */
+  double *sample;    /* out of ask: rows x parameters, in units of standard deviations; NaN: the
+                        parameter stays at its mean */
+  int *level;        /* out of ask: which of the study's levels (lists of scene overrides); 0 where
+                        there are none */
+  const double *result; /* into tell: rows x results; NaN where the run failed */
 };
 
 /* What an estimator is told when it is made. */
 struct gamut_study_shape {
   size_t parameters; /* random parameters */
-  size_t quantities; /* values a run gives */
+  size_t results;    /* numbers that a run gives */
   size_t levels;     /* lists of scene overrides; 0: none */
   struct gamut_stream stream; /* of the study's seed; number realisations as you like */
 };
 
-/* What a study is after. Owned by the core, `quantities` entries each. */
+/* What a study is after. Owned by the core, `results` entries each. */
 struct gamut_moments {
-  double *mean, *variance;             /* of each quantity */
+  double *mean, *variance;             /* of each result */
   double *mean_error, *variance_error; /* one standard error, or the estimator's own bound;
                                           infinite where the estimator knows none */
   /* Where mean and variance lie with a confidence of 95 %. The core sets these to NaN before it

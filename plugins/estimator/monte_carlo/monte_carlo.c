@@ -7,25 +7,25 @@
 
 struct state {
   struct gamut_stream stream;
-  size_t parameters, quantities;
+  size_t parameters, results;
   uint64_t asked, wanted;
   struct sums sums[];
 };
 
 static size_t bytes_of(const struct state *s)
 {
-  return sizeof *s + s->quantities * sizeof s->sums[0];
+  return sizeof *s + s->results * sizeof s->sums[0];
 }
 
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values,
                            const struct gamut_study_shape *shape, void **self)
 {
-  struct state *s = calloc(1, sizeof *s + shape->quantities * sizeof s->sums[0]);
+  struct state *s = calloc(1, sizeof *s + shape->results * sizeof s->sums[0]);
   if (!s)
     return gamut_fail(run, GAMUT_INTERNAL, "out of memory");
   s->stream = shape->stream;
   s->parameters = shape->parameters;
-  s->quantities = shape->quantities;
+  s->results = shape->results;
   s->wanted = (uint64_t)gamut_integer(values, "runs");
   *self = s;
   return GAMUT_OK;
@@ -46,7 +46,7 @@ static gamut_status ask(void *self, struct gamut_batch *batch)
     stream.realisation = s->asked;
     batch->level[r] = 0;
     for (size_t k = 0; k < s->parameters; k++)
-      batch->point[r * s->parameters + k] = stream.normal(&stream, k);
+      batch->sample[r * s->parameters + k] = stream.normal(&stream, k);
   }
   return GAMUT_OK;
 }
@@ -55,15 +55,15 @@ static gamut_status tell(void *self, const struct gamut_batch *batch)
 {
   struct state *s = self;
   for (size_t r = 0; r < batch->rows; r++)
-    for (size_t q = 0; q < s->quantities; q++)
-      sums_add(&s->sums[q], batch->value[r * s->quantities + q]);
+    for (size_t q = 0; q < s->results; q++)
+      sums_add(&s->sums[q], batch->result[r * s->results + q]);
   return GAMUT_OK;
 }
 
 static gamut_status report(const void *self, struct gamut_moments *moments)
 {
   const struct state *s = self;
-  for (size_t q = 0; q < s->quantities; q++) {
+  for (size_t q = 0; q < s->results; q++) {
     const struct sample sample = sample_of(&s->sums[q]);
     const struct interval mean = mean_interval(&sample), variance = variance_interval(&sample);
     const double n = sample.runs;

@@ -35,7 +35,7 @@ static gamut_status ask(void *self, struct gamut_batch *batch)
   for (size_t r = 0; r < batch->rows; r++, s->asked++) {
     batch->level[r] = (int)s->asked;
     for (size_t k = 0; k < s->parameters; k++)
-      batch->point[r * s->parameters + k] = NAN;
+      batch->sample[r * s->parameters + k] = NAN;
   }
   return GAMUT_OK;
 }

@@ -10,7 +10,7 @@ struct sums {
 
 struct state {
   struct gamut_stream stream;
-  size_t parameters, quantities;
+  size_t parameters, results;
   uint64_t asked, wanted;
   struct sums sums[];
 };
@@ -19,18 +19,18 @@ enum { BATCH = 64 };
 
 static size_t bytes_of(const struct state *s)
 {
-  return sizeof *s + s->quantities * sizeof s->sums[0];
+  return sizeof *s + s->results * sizeof s->sums[0];
 }
 
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values,
                            const struct gamut_study_shape *shape, void **self)
 {
-  struct state *s = calloc(1, sizeof *s + shape->quantities * sizeof s->sums[0]);
+  struct state *s = calloc(1, sizeof *s + shape->results * sizeof s->sums[0]);
   if (!s)
     return gamut_fail(run, GAMUT_INTERNAL, "out of memory");
   s->stream = shape->stream;
   s->parameters = shape->parameters;
-  s->quantities = shape->quantities;
+  s->results = shape->results;
   s->wanted = (uint64_t)gamut_integer(values, "runs");
   *self = s;
   return GAMUT_OK;
@@ -50,7 +50,7 @@ static gamut_status ask(void *self, struct gamut_batch *batch)
   for (size_t r = 0; r < batch->rows; r++, s->asked++) {
     batch->level[r] = 0;
     for (size_t k = 0; k < s->parameters; k++)
-      batch->point[r * s->parameters + k] =
+      batch->sample[r * s->parameters + k] =
           s->stream.normal(&s->stream, s->asked * s->parameters + k);
   }
   return GAMUT_OK;
@@ -60,9 +60,9 @@ static gamut_status tell(void *self, const struct gamut_batch *batch)
 {
   struct state *s = self;
   for (size_t r = 0; r < batch->rows; r++)
-    for (size_t q = 0; q < s->quantities; q++) {
+    for (size_t q = 0; q < s->results; q++) {
       struct sums *sums = &s->sums[q];
-      double value = batch->value[r * s->quantities + q];
+      double value = batch->result[r * s->results + q];
       if (!isfinite(value))
         continue; /* a failed run */
       if (sums->runs == 0)
@@ -78,7 +78,7 @@ static gamut_status tell(void *self, const struct gamut_batch *batch)
 static gamut_status report(const void *self, struct gamut_moments *moments)
 {
   const struct state *s = self;
-  for (size_t q = 0; q < s->quantities; q++) {
+  for (size_t q = 0; q < s->results; q++) {
     const struct sums *sums = &s->sums[q];
     double n = sums->runs, m = sums->power[0] / n;
     double p2 = sums->power[1] / n, p3 = sums->power[2] / n, p4 = sums->power[3] / n;
