@@ -25,12 +25,20 @@ struct estimator_operations {
   GAMUT_ESTIMATOR_OPS(void)
 };
 
+/* What becomes of the rows of a study: as the quantities say, or something else, to see what hangs
+ * on it. */
+enum outcome { OUTCOME_TRUE, OUTCOME_OTHER, OUTCOME_SOME_FAIL };
+enum { FAILS_ONE_IN = 8 };
+
 struct study {
   const struct estimator_operations *ops;
   void *self;
   struct gamut_batch batch;
   double *result;
-  size_t runs;
+  struct gamut_row_cost *cost;
+  size_t runs, levels;
+  enum outcome outcome;
+  uint64_t asked; /* a hash of all rows that were asked for */
 };
 
 /* Levels that the parameters make, as a grid. */
@@ -45,18 +53,30 @@ static size_t levels_of(const struct values *values)
   return levels;
 }
 
+/* Two scalars, in the order of `quantities`. */
+static const struct gamut_study_parameter parameter[PARAMETERS] = {
+    {"materials.metal.x", "Pa", 0, 1}, {"materials.metal.y", "1", 0, 1}};
+static const struct gamut_study_quantity quantity[RESULTS] = {
+    {.name = "linear", .unit = "m", .first = 0, .count = 1},
+    {.name = "quadratic", .unit = "Pa", .first = 1, .count = 1}};
+
 static gamut_status study_new(struct study *study, struct bare_run *run)
 {
-  *study = (struct study){.ops = run->ops};
-  study->batch = (struct gamut_batch){
-      .parameters = PARAMETERS, .results = RESULTS, .capacity = CAPACITY};
+  *study = (struct study){.ops = run->ops, .levels = levels_of(run->specimen.values)};
+  study->batch =
+      (struct gamut_batch){.parameters = PARAMETERS, .results = RESULTS, .capacity = CAPACITY};
   study->batch.sample = calloc(CAPACITY * PARAMETERS, sizeof(double));
   study->batch.level = calloc(CAPACITY, sizeof(int));
-  study->result = calloc(CAPACITY * RESULTS, sizeof(double));
-  study->batch.result = study->result;
+  study->batch.mode = calloc(CAPACITY, sizeof(int));
+  study->batch.realisation = calloc(CAPACITY, sizeof(uint64_t));
+  study->batch.result = study->result = calloc(CAPACITY * RESULTS, sizeof(double));
+  study->batch.cost = study->cost = calloc(CAPACITY, sizeof *study->cost);
   const struct gamut_study_shape shape = {.parameters = PARAMETERS,
+                                          .quantities = RESULTS,
                                           .results = RESULTS,
-                                          .levels = levels_of(run->specimen.values),
+                                          .levels = study->levels,
+                                          .parameter = parameter,
+                                          .quantity = quantity,
                                           .stream = stream_make(1, 0, "conformance")};
   return study->ops->create(bare_run_handle(run), run->specimen.values, &shape, &study->self);
 }
@@ -67,19 +87,57 @@ static void study_free(struct study *study)
     study->ops->destroy(study->self);
   free(study->batch.sample);
   free(study->batch.level);
+  free(study->batch.mode);
+  free(study->batch.realisation);
   free(study->result);
+  free(study->cost);
+}
+
+static uint64_t hash(uint64_t h, const void *bytes, size_t size)
+{
+  const unsigned char *byte = bytes;
+  for (size_t i = 0; i < size; i++)
+    h = (h ^ byte[i]) * UINT64_C(0x100000001b3);
+  return h;
+}
+
+static bool study_ask(struct study *study, gamut_status *status)
+{
+  struct gamut_batch *batch = &study->batch;
+  batch->rows = 0;
+  for (size_t r = 0; r < CAPACITY; r++) {
+    batch->level[r] = 0;
+    batch->mode[r] = GAMUT_ROW_RUN;
+    batch->realisation[r] = GAMUT_NEXT_REALISATION;
+  }
+  *status = study->ops->ask(study->self, batch);
+  if (*status != GAMUT_OK || batch->rows == 0 || batch->rows > CAPACITY)
+    return false;
+  study->asked = hash(study->asked, batch->sample, batch->rows * PARAMETERS * sizeof(double));
+  study->asked = hash(study->asked, batch->level, batch->rows * sizeof(int));
+  study->asked = hash(study->asked, batch->realisation, batch->rows * sizeof(uint64_t));
+  return true;
 }
 
 /* One batch; false at the end or on failure. */
 static bool study_batch(struct study *study, gamut_status *status)
 {
   struct gamut_batch *batch = &study->batch;
-  batch->rows = 0;
-  *status = study->ops->ask(study->self, batch);
-  if (*status != GAMUT_OK || batch->rows == 0 || batch->rows > CAPACITY)
+  if (!study_ask(study, status))
     return false;
-  for (size_t r = 0; r < batch->rows; r++)
-    quantities(batch->sample + r * PARAMETERS, study->result + r * RESULTS);
+  for (size_t r = 0; r < batch->rows; r++) {
+    double *result = study->result + r * RESULTS;
+    const size_t number = study->runs + r;
+    if (batch->realisation[r] == GAMUT_NEXT_REALISATION)
+      batch->realisation[r] = number;
+    quantities(batch->sample + r * PARAMETERS, result);
+    for (int q = 0; q < RESULTS; q++)
+      if (study->outcome == OUTCOME_OTHER)
+        result[q] = 1e3 * (double)(number % 7) - result[q];
+      else if (study->outcome == OUTCOME_SOME_FAIL && number % FAILS_ONE_IN == 3)
+        result[q] = NAN;
+    study->cost[r] = (struct gamut_row_cost){1e-3, 1e3 * (double)(batch->level[r] + 1)};
+  }
   study->runs += batch->rows;
   *status = study->ops->tell(study->self, batch);
   return *status == GAMUT_OK && study->runs < RUNS_MAX;
@@ -100,17 +158,38 @@ struct result {
   double heavy_tail[RESULTS];
 };
 
-/* Where runs are no sample there is nothing to report. */
+static gamut_status hear_number(struct gamut_report *report, size_t index, const char *name,
+                                const char *unit, const char *meaning, const double *value)
+{
+  (void)report, (void)unit, (void)meaning;
+  return index < RESULTS && name && value ? GAMUT_OK : GAMUT_PLUGIN;
+}
+
+static gamut_status hear_table(struct gamut_report *report, const char *name, const char *meaning,
+                               const struct gamut_table_column *column, size_t columns, size_t rows)
+{
+  (void)report, (void)meaning, (void)rows;
+  for (size_t c = 0; c < columns; c++)
+    if (!column[c].name || !column[c].number == !column[c].text)
+      return GAMUT_PLUGIN;
+  return name && columns > 0 ? GAMUT_OK : GAMUT_PLUGIN;
+}
+
+/* Where runs are no sample there are no moments. */
 static gamut_status study_report(struct study *study, bool table, struct result *result)
 {
   double *number = (double *)result;
   for (size_t i = 0; i < sizeof *result / sizeof *number; i++)
     number[i] = NAN;
-  struct gamut_moments moments = {
-      result->mean,           result->variance,       result->mean_error,
-      result->variance_error, result->mean_lower,     result->mean_upper,
-      result->variance_lower, result->variance_upper, result->heavy_tail};
-  return table ? GAMUT_OK : study->ops->report(study->self, &moments);
+  struct gamut_report report = {.moments = {result->mean, result->variance, result->mean_error,
+                                            result->variance_error, result->mean_lower,
+                                            result->mean_upper, result->variance_lower,
+                                            result->variance_upper, result->heavy_tail},
+                                .number = hear_number,
+                                .table = hear_table};
+  if (table)
+    report.moments = (struct gamut_moments){0};
+  return study->ops->report ? study->ops->report(study->self, &report) : GAMUT_OK;
 }
 
 /* An interval that is stated holds the estimate, and the truth lies within twice its width. */
@@ -197,6 +276,41 @@ static void prove_levels(struct checks *checks, const struct bare_run *run,
              levels);
 }
 
+/* What the descriptor says of it: that it asks for the same rows whatever came back, and that it
+ * can do with what is left where some runs failed. */
+static void prove_claims(struct proof *proof, struct bare_run *run, const struct study *whole)
+{
+  const struct descriptor *d = proof->descriptor;
+  gamut_status status;
+  struct study other;
+  if (!d->adaptive) {
+    check_begin(&proof->checks, "a study that gives other results");
+    status = study_new(&other, run);
+    other.outcome = OUTCOME_OTHER;
+    if (status == GAMUT_OK)
+      status = study_end(&other);
+    check_that(&proof->checks,
+               status == GAMUT_OK && other.runs == whole->runs && other.asked == whole->asked,
+               "`adaptive: false`: it asks for the same rows whatever it is told");
+    study_free(&other);
+  }
+  if (d->omits_failed_runs && !d->yields_table) {
+    struct result result;
+    check_begin(&proof->checks, "a study with failed runs");
+    status = study_new(&other, run);
+    other.outcome = OUTCOME_SOME_FAIL;
+    if (status == GAMUT_OK)
+      status = study_end(&other);
+    if (status == GAMUT_OK)
+      status = study_report(&other, false, &result);
+    check_that(&proof->checks,
+               status == GAMUT_OK && isfinite(result.mean[0]) && isfinite(result.variance[0]),
+               "`omits_failed_runs: true`: mean and variance where one run in %d failed",
+               FAILS_ONE_IN);
+    study_free(&other);
+  }
+}
+
 void prove_estimator(struct proof *proof)
 {
   struct bare_run run;
@@ -222,6 +336,7 @@ void prove_estimator(struct proof *proof)
         else
           prove_integrals(&proof->checks, &study, &result);
         prove_restore(proof, &run, &result, study.runs);
+        prove_claims(proof, &run, &study);
       }
       bare_run_say(&run, &proof->checks);
       study_free(&study);

@@ -59,6 +59,11 @@
  *   yields: moments                    estimator: what its runs are for. moments (unless stated):
  *                                      they are a sample, and `report` gives mean and variance;
  *                                      table: each stands for itself
+ *   adaptive: false                    estimator: whether what it asks for hangs on what it was
+ *                                      told; where not, all rows are known beforehand
+ *   omits_failed_runs: true            estimator: whether it can leave out runs that failed; where
+ *                                      not (the weights of a quadrature), the first one ends the
+ *                                      study
  *   measures:                          what a quantity can be
  *     pressure: {unit: Pa, at: point, formula: "-(stress_xx + stress_yy + stress_zz) / 3", doc: ..}
  *     extent: {unit: m, at: body, arguments: {axis: {type: choice, choices: [x, y, z]}}, doc: ..}
@@ -169,6 +174,7 @@ struct descriptor {
   const char **phase;                  size_t phases;
   const char *axis, *axis_unit;
   bool yields_table;                   /* of an estimator: its runs are no sample */
+  bool adaptive, omits_failed_runs;    /* of an estimator */
   struct measure *measure;             size_t measures;
   char digest[24];                     /* of the interface, see descriptor_digest */
   struct tree *tree;                   /* owns all strings */

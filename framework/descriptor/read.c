@@ -47,6 +47,8 @@ static const struct {
     {"phases", SOLVER},
     {"axis", SOLVER},
     {"yields", KIND(GAMUT_KIND_ESTIMATOR)},
+    {"adaptive", KIND(GAMUT_KIND_ESTIMATOR)},
+    {"omits_failed_runs", KIND(GAMUT_KIND_ESTIMATOR)},
     {"measures", MEASURES},
 };
 
@@ -54,9 +56,11 @@ static const struct {
 static bool is_public(const char *name)
 {
   static const char *const tag[] = {
-      "batch",        "body",   "chunk",       "eos_law",  "field", "host",     "law",
-      "moments",      "plane",  "plugin",      "reaction", "run",   "run_head", "set",
-      "strength_law", "stream", "study_shape", "task",     "use",   "values"};
+      "batch",        "body",   "chunk",       "eos_law",         "field",
+      "host",         "law",    "moments",     "plane",           "plugin",
+      "reaction",     "report", "row_cost",    "run",             "run_head",
+      "set",          "stream", "study_shape", "study_parameter", "study_quantity",
+      "strength_law", "task",   "use",         "table_column",    "values"};
   if (strcmp(name, "gamut") == 0)
     return true;
   for (size_t i = 0; strncmp(name, "gamut_", 6) == 0 && i < ARRAY_SIZE(tag); i++)

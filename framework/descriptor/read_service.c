@@ -181,5 +181,7 @@ void read_services(struct reader *reader, const struct tree *root)
   }
   read_axis(reader, tree_get(root, "axis"));
   read_yields(reader, root);
+  d->adaptive = read_flag(reader, root, "adaptive", false);
+  d->omits_failed_runs = read_flag(reader, root, "omits_failed_runs", true);
   read_measures(reader, tree_get(root, "measures"));
 }

@@ -246,8 +246,11 @@ static void put_services(FILE *file, const struct descriptor *d)
   if (d->axis)
     fprintf(file, "\nmarches in %s (%s)\n", d->axis, d->axis_unit);
   if (d->kind == GAMUT_KIND_ESTIMATOR)
-    fprintf(file, "\nyields %s\n",
-            d->yields_table ? "a table: each run stands for itself" : "moments of its runs");
+    fprintf(file, "\nyields %s\n%s\n%s\n",
+            d->yields_table ? "a table: each run stands for itself" : "moments of its runs",
+            d->adaptive ? "decides by results which runs it asks for"
+                        : "knows beforehand which runs it asks for",
+            d->omits_failed_runs ? "leaves out runs that failed" : "no run may fail");
   if (d->measures)
     fputs("\nmeasures\n", file);
   for (size_t i = 0; i < d->measures; i++) {

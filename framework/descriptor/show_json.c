@@ -240,8 +240,11 @@ void descriptor_show_json(const struct descriptor *d, FILE *file)
     set_text(axis, "unit", d->axis_unit);
     json_object_set_new(object, "axis", axis);
   }
-  if (d->kind == GAMUT_KIND_ESTIMATOR)
+  if (d->kind == GAMUT_KIND_ESTIMATOR) {
     set_text(object, "yields", d->yields_table ? "table" : "moments");
+    json_object_set_new(object, "adaptive", json_boolean(d->adaptive));
+    json_object_set_new(object, "omits_failed_runs", json_boolean(d->omits_failed_runs));
+  }
   json_object_set_new(object, "measures", measures(d));
   json_dumpf(object, file, JSON_INDENT(2));
   fputc('\n', file);

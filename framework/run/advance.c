@@ -188,6 +188,7 @@ struct run_cost run_cost_of(const struct gamut_run *run)
 {
   struct run_cost cost = {.points = count_points(run),
                           .steps = run->steps,
+                          .work = run->work,
                           .wall = run->wall,
                           .cpu = run->cpu,
                           .bytes = arena_bytes(run->arena),

@@ -65,7 +65,8 @@ void run_warn(const struct gamut_run *, struct trace *);
 
 /* What came out. Owned by the run. */
 struct run_cost {
-  uint64_t points, steps; double wall, cpu; size_t bytes, peak; double bytes_per_point;
+  uint64_t points, steps; double work /* points of all steps */, wall, cpu;
+  size_t bytes, peak; double bytes_per_point;
   size_t resident; /* most of the process so far, with all libraries */
 };
 const struct schedule *run_schedule(const struct gamut_run *);

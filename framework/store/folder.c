@@ -13,8 +13,8 @@
 #include "store/store_private.h"
 
 static const char *const result_files[] = {
-    RESULT_HDF5, RESULT_XDMF,     RESULT_HISTORY,      RESULT_SCENE,  RESULT_STUDY,
-    RESULT_LOG,  CHECKPOINT_FILE, CHECKPOINT_PREVIOUS, RESULT_SUMMARY};
+    RESULT_HDF5,      RESULT_XDMF, RESULT_HISTORY,  RESULT_SCENE,        RESULT_STUDY,
+    RESULT_ESTIMATES, RESULT_LOG,  CHECKPOINT_FILE, CHECKPOINT_PREVIOUS, RESULT_SUMMARY};
 enum { RESULT_FILES = ARRAY_SIZE(result_files) };
 
 static bool folder_has(const char *folder, const char *name)
@@ -26,15 +26,15 @@ static bool folder_has(const char *folder, const char *name)
 }
 
 /* What a run that was killed while it wrote leaves behind: no part of a result. */
-static const char *const partial_files[] = {
-    RESULT_PARTIAL,
-    CHECKPOINT_PARTIAL,
-    RESULT_XDMF FILE_PARTIAL,
-    RESULT_HISTORY FILE_PARTIAL,
-    RESULT_SUMMARY FILE_PARTIAL,
-    RESULT_SCENE FILE_PARTIAL,
-    RESULT_LOG FILE_PARTIAL,
-    RESULT_STUDY FILE_PARTIAL};
+static const char *const partial_files[] = {RESULT_PARTIAL,
+                                            CHECKPOINT_PARTIAL,
+                                            RESULT_XDMF FILE_PARTIAL,
+                                            RESULT_HISTORY FILE_PARTIAL,
+                                            RESULT_SUMMARY FILE_PARTIAL,
+                                            RESULT_SCENE FILE_PARTIAL,
+                                            RESULT_LOG FILE_PARTIAL,
+                                            RESULT_STUDY FILE_PARTIAL,
+                                            RESULT_ESTIMATES FILE_PARTIAL};
 enum { PARTIAL_FILES = ARRAY_SIZE(partial_files) };
 
 /* Name of the first file of a result that the folder holds, or null. */
@@ -84,22 +84,43 @@ static bool is_picture(const char *name)
          (strcmp(end, ".png") == 0 || strcmp(end, ".gp") == 0 || strcmp(end, ".dat") == 0);
 }
 
-static gamut_status remove_pictures(const char *folder, struct trace *trace)
+static bool ends_in(const char *name, const char *end)
+{
+  const size_t length = strlen(name), tail = strlen(end);
+  return length >= tail && strcmp(name + length - tail, end) == 0;
+}
+
+/* Of an estimator's tables; one that a killed run left half written is one too. */
+static bool is_table(const char *name)
+{
+  return strncmp(name, RESULT_TABLE, strlen(RESULT_TABLE)) == 0 &&
+         (ends_in(name, ".csv") || ends_in(name, ".csv" FILE_PARTIAL));
+}
+
+static gamut_status remove_those(const char *folder, bool (*is_one)(const char *name),
+                                 struct trace *trace)
 {
   gamut_status status = GAMUT_OK;
-  char *pictures = file_path(folder, RESULT_PICTURES);
-  int place = pictures ? open(pictures, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : -1;
+  int place = open(folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
   DIR *opened = place >= 0 ? fdopendir(place) : NULL;
   for (struct dirent *entry; opened && status == GAMUT_OK && (entry = readdir(opened));)
-    if (is_picture(entry->d_name) && unlinkat(place, entry->d_name, 0) != 0 && errno != ENOENT)
-      status = trace_fail(trace, GAMUT_OUTPUT, "cannot remove '%s/%s': %s", pictures,
-                          entry->d_name, strerror(errno));
-  if (opened) {
+    if (is_one(entry->d_name) && unlinkat(place, entry->d_name, 0) != 0 && errno != ENOENT)
+      status = trace_fail(trace, GAMUT_OUTPUT, "cannot remove '%s/%s': %s", folder, entry->d_name,
+                          strerror(errno));
+  if (opened)
     closedir(opened);
-    rmdir(pictures); /* stays when somebody else has put something there */
-  } else if (place >= 0) {
+  else if (place >= 0)
     close(place);
-  }
+  return status;
+}
+
+static gamut_status remove_pictures(const char *folder, struct trace *trace)
+{
+  char *pictures = file_path(folder, RESULT_PICTURES);
+  if (!pictures)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  const gamut_status status = remove_those(pictures, is_picture, trace);
+  rmdir(pictures); /* stays when somebody else has put something there */
   free(pictures);
   return status;
 }
@@ -126,6 +147,7 @@ static gamut_status remove_former(const char *folder, struct trace *trace)
 {
   gamut_status status;
   TRY(remove_pictures(folder, trace));
+  TRY(remove_those(folder, is_table, trace));
   /* Should removing stop half-way: the summary goes first, since it says that all is there, and
    * results.h5 last, since it is the mark of a result. */
   for (size_t i = RESULT_FILES; i-- > 0;)
@@ -147,10 +169,9 @@ gamut_status folder_make_way(const char *folder, bool force, struct trace *trace
                                  "--force replaces the result",
                          "'%s' holds a result already (%s)", folder, former);
   if (!is_ours(folder))
-    return trace_fail_at(trace, GAMUT_OUTPUT, NULL, NULL,
-                         "choose another folder, or remove what is in this one",
-                         "'%s' holds %s, but no results.h5 of gamut: nothing is removed", folder,
-                         former);
+    return trace_fail_at(
+        trace, GAMUT_OUTPUT, NULL, NULL, "choose another folder, or remove what is in this one",
+        "'%s' holds %s, but no results.h5 of gamut: nothing is removed", folder, former);
   return remove_former(folder, trace);
 }
 

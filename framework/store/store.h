@@ -91,6 +91,9 @@ gamut_status store_finish(struct store *, struct trace *);
 /* What a study leaves. The log of finished runs is the study's own file in the folder. */
 #define RESULT_LOG "study.log"
 #define RESULT_LOG_MARK "gamut-study "
+/* What an estimator reports: numbers of quantities, and table_NAME.csv. */
+#define RESULT_ESTIMATES "estimates.csv"
+#define RESULT_TABLE "table_"
 struct table_column {
   const char *group;                 /* below the table's in results.h5; null: there itself */
   const char *name, *unit, *meaning; /* unit null: none */

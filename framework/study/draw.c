@@ -47,12 +47,12 @@ static const struct random_parameter *conflict_of(struct study *study, const dou
   return scene_conflict(study->probe.scene, room, conflict, size);
 }
 
-gamut_status draw_run(struct study *study, size_t number, const double *normal,
-                      struct outcome *outcome)
+gamut_status draw_run(struct study *study, const double *normal, struct outcome *outcome)
 {
   gamut_status status = GAMUT_OK;
   char conflict[200];
-  struct gamut_stream stream = stream_make(study->scene->seed, number, "uncertainty.again");
+  struct gamut_stream stream =
+      stream_make(study->scene->seed, outcome->realisation, "uncertainty.again");
   double *room = calloc(2 * study->parameters + 1, sizeof *room);
   if (!room)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");

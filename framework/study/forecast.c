@@ -16,14 +16,14 @@ static gamut_status count_runs(struct study *study, struct study_forecast *f)
   const char *name = study->scene->estimator.descriptor->id;
   for (size_t i = 0; i < batch->capacity * study->results; i++)
     study->batch_result[i] = NAN;
+  f->more = study->scene->estimator.descriptor->adaptive;
   do {
-    batch->rows = 0;
-    TRY(GUARDED(name, study->ops->ask(study->self, batch)));
+    TRY(estimator_ask(study));
     if (batch->rows > 0)
       TRY(GUARDED(name, study->ops->tell(study->self, batch)));
     f->runs += batch->rows;
-    f->more = f->runs >= RUNS_COUNTED;
-  } while (batch->rows > 0 && !f->more);
+    f->more = f->more || f->runs >= RUNS_COUNTED;
+  } while (batch->rows > 0 && f->runs < RUNS_COUNTED);
 done:
   return status;
 }

@@ -1,13 +1,14 @@
 /* study.log: one line a finished run, exact numbers, a sum over the line, forced to the disk.
  *
- *   gamut-study 2 DIGEST
+ *   gamut-study 3 DIGEST
  *   curve QUANTITY COUNT AXIS...
- *   nominal LEVEL REALISATION STEPS POINTS WALL CPU PARAMETERS... VALUES... ok|failed REASON
- *   run NUMBER LEVEL REALISATION ... as of the nominal run
+ *   nominal LEVEL MODE REALISATION STEPS POINTS WORK WALL CPU PARAMETERS... RESULTS... ok|failed
+ *     REASON
+ *   run NUMBER LEVEL MODE REALISATION ... as of the nominal run
  *
- * VALUES ends, where runs are no sample, in COUNT AXIS... VALUE... of each of the run's own curves.
- * Each line is followed by " ~" and eight hex digits. A line that was cut off by the end of the
- * program is taken off when the study goes on. */
+ * RESULTS ends, where runs are no sample, in COUNT AXIS... VALUE... of each of the run's own
+ * curves. Each line is followed by " ~" and eight hex digits. A line that was cut off by the end of
+ * the program is taken off when the study goes on. */
 #include <errno.h>
 #include <fcntl.h>
 #include <inttypes.h>
@@ -20,6 +21,7 @@
 #include "store/file.h"
 #include "study/study_private.h"
 
+#define LOG_VERSION "3 "
 enum { SUM_LENGTH = 10 }; /* " ~" and eight digits */
 
 static const uint64_t hash_start = UINT64_C(0xcbf29ce484222325);
@@ -157,8 +159,8 @@ static void write_own(FILE *file, const struct own_curve *own)
 
 static void write_outcome(const struct study *study, const struct outcome *o, FILE *file)
 {
-  fprintf(file, " %zu %" PRIu64 " %" PRIu64 " %" PRIu64 " %a %a", o->level, o->realisation,
-          o->steps, o->points, o->wall, o->cpu);
+  fprintf(file, " %zu %d %" PRIu64 " %" PRIu64 " %" PRIu64 " %a %a %a", o->level, (int)o->mode,
+          o->realisation, o->steps, o->points, o->work, o->wall, o->cpu);
   for (size_t i = 0; i < study->parameters; i++)
     fprintf(file, " %a", o->parameter[i]);
   for (size_t i = 0; i < study->results; i++)
@@ -219,7 +221,7 @@ gamut_status log_begin(struct study *study, const char *folder)
   gamut_status status;
   char header[64], *text = NULL;
   TRY(find_path(study, folder));
-  snprintf(header, sizeof header, RESULT_LOG_MARK "2 %s", study->digest);
+  snprintf(header, sizeof header, RESULT_LOG_MARK LOG_VERSION "%s", study->digest);
   text = strdup(header);
   if (text)
     text = with_sum(text, strlen(text));
@@ -310,10 +312,11 @@ static bool read_own(char **text, struct own_curve *own)
 
 static bool read_outcome(struct study *study, char *text, struct outcome *o)
 {
-  uint64_t level;
+  uint64_t level, mode;
   outcome_clear(o);
-  bool good = next_whole(&text, &level) && next_whole(&text, &o->realisation) &&
-              next_whole(&text, &o->steps) && next_whole(&text, &o->points) &&
+  bool good = next_whole(&text, &level) && next_whole(&text, &mode) && mode == GAMUT_ROW_RUN &&
+              next_whole(&text, &o->realisation) && next_whole(&text, &o->steps) &&
+              next_whole(&text, &o->points) && next_number(&text, &o->work) &&
               next_number(&text, &o->wall) && next_number(&text, &o->cpu) && outcome_room(study, o);
   o->level = level;
   for (size_t i = 0; good && i < study->parameters; i++)
@@ -361,8 +364,8 @@ static gamut_status read_line(struct study *study, const char *path, char *line,
 {
   if (number == 1) {
     char expected[64];
-    snprintf(expected, sizeof expected, RESULT_LOG_MARK "2 %s", study->digest);
-    if (strncmp(line, RESULT_LOG_MARK "2 ", sizeof RESULT_LOG_MARK + 1) != 0)
+    snprintf(expected, sizeof expected, RESULT_LOG_MARK LOG_VERSION "%s", study->digest);
+    if (strncmp(line, RESULT_LOG_MARK LOG_VERSION, strlen(RESULT_LOG_MARK LOG_VERSION)) != 0)
       return refuse(study, path, number, "it is no log of this gamut's studies");
     if (strcmp(line, expected) != 0)
       return refuse(study, path, number, "the scene, the seed or a plugin is another than it was");

@@ -145,6 +145,7 @@ static gamut_status march_nominal(struct study *study, struct gamut_run *run)
   const struct run_cost cost = run_cost_of(run);
   nominal->steps = cost.steps;
   nominal->points = cost.points;
+  nominal->work = cost.work;
   nominal->wall = cost.wall;
   nominal->cpu = cost.cpu;
   nominal->done = true;

@@ -265,6 +265,7 @@ gamut_status results_write(struct study *study, struct store *store, gamut_statu
     TRY(write_members(study, store));
   else if (outcome == GAMUT_OK)
     TRY(write_curves(study, store));
+  TRY(report_write(study, store));
   if (summary)
     TRY(store_summary(store, summary, study->trace));
   TRY(store_finish(store, study->trace));

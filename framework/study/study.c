@@ -114,7 +114,8 @@ static gamut_status recall(struct study *study, size_t number)
   if (number >= study->logs || !study->logged[number].done)
     return GAMUT_OK;
   struct outcome *logged = &study->logged[number];
-  bool same = logged->level == wanted->level && logged->realisation == wanted->realisation;
+  bool same = logged->level == wanted->level && logged->mode == wanted->mode &&
+              logged->realisation == wanted->realisation;
   for (size_t i = 0; i < study->parameters; i++)
     same = same &&
            fabs(logged->parameter[i] - wanted->parameter[i]) <= 1e-9 * fabs(wanted->parameter[i]);
@@ -131,34 +132,39 @@ static gamut_status recall(struct study *study, size_t number)
   return GAMUT_OK;
 }
 
+static gamut_status make_room(struct study *study)
+{
+  if (study->runs + study->batch.rows <= study->room)
+    return GAMUT_OK;
+  const size_t room = 2 * study->room + study->batch.rows;
+  struct outcome *grown = realloc(study->outcome, room * sizeof *grown);
+  if (!grown)
+    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  study->outcome = grown;
+  study->room = room;
+  return GAMUT_OK;
+}
+
+/* Rows of the batch become runs, with the realisations that the core gives. */
 static gamut_status list_rows(struct study *study)
 {
-  gamut_status status = GAMUT_OK;
-  const struct gamut_batch *batch = &study->batch;
-  if (batch->rows > batch->capacity)
-    return trace_fail(study->trace, GAMUT_PLUGIN, "%s asks for more runs than there is room for",
-                      study->scene->estimator.descriptor->id);
-  if (study->runs + batch->rows > study->room) {
-    size_t room = 2 * study->room + batch->rows;
-    struct outcome *grown = realloc(study->outcome, room * sizeof *grown);
-    if (!grown)
-      return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
-    study->outcome = grown;
-    study->room = room;
-  }
+  gamut_status status;
+  struct gamut_batch *batch = &study->batch;
+  TRY(make_room(study));
   for (size_t r = 0; r < batch->rows; r++) {
     struct outcome *o = &study->outcome[study->runs];
-    size_t level = batch->level[r] < 0 ? SIZE_MAX : (size_t)batch->level[r];
-    if (level >= (study->levels ? study->levels : 1))
-      return trace_fail(study->trace, GAMUT_PLUGIN, "%s asks for level %d, which is not there",
-                        study->scene->estimator.descriptor->id, batch->level[r]);
-    *o = (struct outcome){.level = level, .realisation = study->asked_on[level]++};
+    const size_t level = (size_t)batch->level[r], before = study->asked_on[level]++;
+    if (batch->realisation[r] == GAMUT_NEXT_REALISATION)
+      batch->realisation[r] = before;
+    *o = (struct outcome){.level = level,
+                          .mode = (enum gamut_row_mode)batch->mode[r],
+                          .realisation = batch->realisation[r]};
     if (!outcome_room(study, o)) {
       outcome_clear(o);
       return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
     }
     const size_t number = study->runs++;
-    TRY(draw_run(study, number, batch->sample + r * study->parameters, o));
+    TRY(draw_run(study, batch->sample + r * study->parameters, o));
     TRY(recall(study, number));
   }
 done:
@@ -224,6 +230,7 @@ static gamut_status tell(struct study *study, size_t first)
     const struct outcome *o = &study->outcome[first + r];
     for (size_t q = 0; q < study->results; q++)
       study->batch_result[r * study->results + q] = o->reason ? NAN : o->result[q];
+    study->batch_cost[r] = (struct gamut_row_cost){o->cpu, o->work};
   }
   return GUARDED(estimator_of(study), study->ops->tell(study->self, &study->batch));
 }
@@ -233,8 +240,15 @@ size_t levels_of_table(const struct study *study)
   return study->levels ? study->levels : 1;
 }
 
+bool may_fail(const struct study *study)
+{
+  return study->scene->estimator.descriptor->omits_failed_runs;
+}
+
 bool too_many_fail(const struct study *study)
 {
+  if (!may_fail(study))
+    return study->failed > 0;
   const size_t levels = study->table ? levels_of_table(study) : 0;
   const size_t runs = levels > study->runs ? levels : study->runs;
   return (double)study->failed > study->scene->failures * (double)runs || study->failed >= runs;
@@ -247,6 +261,10 @@ static gamut_status judge_failures(struct study *study)
     return GAMUT_OK;
   for (size_t i = 0; i < study->runs && !reason; i++)
     reason = study->outcome[i].reason;
+  if (!may_fail(study))
+    return trace_fail_at(study->trace, GAMUT_NUMERICS, NULL, NULL, "study.csv has every reason",
+                         "%zu of %zu runs failed, and %s can leave none out; the first: %s",
+                         study->failed, study->runs, estimator_of(study), reason);
   return trace_fail_at(study->trace, GAMUT_NUMERICS, NULL, NULL,
                        study->table ? "study.csv has every reason"
                                     : "the moments of what is left would mislead; study.csv has "
@@ -260,10 +278,8 @@ static gamut_status run_batches(struct study *study)
 {
   gamut_status status = GAMUT_OK;
   for (;;) {
-    size_t first = study->runs;
-    study->batch.rows = 0;
-    memset(study->batch.level, 0, study->batch.capacity * sizeof *study->batch.level);
-    TRY(GUARDED(estimator_of(study), study->ops->ask(study->self, &study->batch)));
+    const size_t first = study->runs;
+    TRY(estimator_ask(study));
     if (study->batch.rows == 0)
       break;
     TRY(list_rows(study));
@@ -274,8 +290,7 @@ static gamut_status run_batches(struct study *study)
   if (study->runs == 0)
     return trace_fail(study->trace, GAMUT_SCENE, "%s asks for no run",
                       study->scene->estimator.descriptor->id);
-  if (!study->table)
-    status = GUARDED(estimator_of(study), study->ops->report(study->self, &study->moments));
+  status = report_take(study);
 done:
   return status;
 }

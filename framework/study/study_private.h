@@ -2,6 +2,8 @@
 #ifndef GAMUT_STUDY_PRIVATE_H
 #define GAMUT_STUDY_PRIVATE_H
 
+#include <jansson.h>
+
 #include <gamut/plugin.h>
 
 #include "study/study.h"
@@ -35,6 +37,7 @@ struct own_curve {
 /* One run. */
 struct outcome {
   size_t level;
+  enum gamut_row_mode mode;
   uint64_t realisation;
   bool done;         /* made, or found in the log */
   char *reason;      /* why it failed; null: it did not */
@@ -45,6 +48,7 @@ struct outcome {
   bool again; /* what was drawn first was not possible */
   uint64_t steps, points;
   double wall, cpu; /* s */
+  double work;      /* points times steps */
 };
 
 /* What an estimator may ask of the core. */
@@ -93,10 +97,14 @@ struct study {
   struct estimator_host host;
   const struct estimator_operations *ops;
   void *self;
+  struct gamut_study_parameter *parameter; /* as the estimator sees them */
+  struct gamut_study_quantity *quantity;
   struct gamut_batch batch;
-  double *batch_result; /* what batch.result shows */
+  double *batch_result;              /* what batch.result shows */
+  struct gamut_row_cost *batch_cost; /* and batch.cost */
   double *moment; /* MOMENTS of each result, once reported */
   struct gamut_moments moments;
+  struct study_report *report; /* what else was reported */
 
   struct outcome nominal;  /* the run at the means, where runs are a sample; in no statistic */
   struct outcome *outcome; /* in the order of asking */
@@ -128,8 +136,8 @@ char *level_label(const struct study *, size_t level);
 
 /* draw.c: a row of the estimator as values of the parameters. */
 gamut_status draw_prepare(struct study *); /* after levels_make */
-/* Draws again, from a stream of the run's number, what a constraint forbids. */
-gamut_status draw_run(struct study *, size_t number, const double *normal, struct outcome *);
+/* Draws again, from a stream of the run's realisation, what a constraint forbids. */
+gamut_status draw_run(struct study *, const double *normal, struct outcome *);
 void draw_row(const struct study *, const double *normal, double *parameter);
 
 /* curve.c: what a run's histories give. */
@@ -150,6 +158,8 @@ gamut_status plan_first_level(struct study *);
 size_t levels_of_table(const struct study *);
 /* More than uncertainty.failures allows; of a table, more than it allows of all its levels. */
 bool too_many_fail(const struct study *);
+/* Whether the estimator can leave out a run that failed. */
+bool may_fail(const struct study *);
 
 /* worker.c */
 void worker_clear(struct worker *);
@@ -179,6 +189,18 @@ void log_close(struct study *);
 /* estimator.c */
 gamut_status estimator_new(struct study *);
 void estimator_free(struct study *);
+/* The next batch; refuses one that cannot be. */
+gamut_status estimator_ask(struct study *);
+
+/* report.c */
+gamut_status report_new(struct study *);  /* after the moments are there */
+gamut_status report_take(struct study *); /* asks the estimator, at the end of the study */
+void report_free(struct study *);
+/* report_write.c: {NAME: {"unit":, "value" or "values":}} of a quantity, and {NAME: {"columns":
+ * {..}}}; null: nothing was reported. */
+json_t *report_estimates_json(const struct study *, size_t quantity);
+json_t *report_tables_json(const struct study *);
+gamut_status report_write(struct study *, struct store *);
 
 /* results.c */
 gamut_status results_write(struct study *, struct store *, gamut_status);

@@ -161,6 +161,9 @@ static json_t *quantities_json(const struct study *study, gamut_status status)
       add_curve(study, m, entry);
     else
       add_scalar(study, m, entry);
+    json_t *estimates = status == GAMUT_OK ? report_estimates_json(study, i) : NULL;
+    if (estimates)
+      json_object_set_new(entry, "estimates", estimates);
     json_object_set_new(all, m->quantity->name, entry);
   }
   return all;
@@ -346,7 +349,7 @@ static json_t *cost_json(const struct study *study)
     wall += o->done ? o->wall : 0;
     cpu += o->done ? o->cpu : 0;
     steps += o->done ? (double)o->steps : 0;
-    work += o->done ? (double)o->steps * (double)o->points : 0;
+    work += o->done ? o->work : 0;
   }
   json_t *entry = json_object();
   json_object_set_new(entry, "runs", json_integer((json_int_t)study->finished));
@@ -380,6 +383,9 @@ static json_t *study_json(const struct study *study, gamut_status status)
     json_object_set_new(entry, "truncation", truncation_json(study));
   if (study->levels)
     json_object_set_new(entry, "levels", levels_json(study));
+  json_t *tables = status == GAMUT_OK ? report_tables_json(study) : NULL;
+  if (tables)
+    json_object_set_new(entry, "tables", tables);
   json_object_set_new(entry, "cost", cost_json(study));
   return entry;
 }

@@ -103,6 +103,7 @@ static gamut_status collect(const struct study *study, const struct gamut_run *r
   const struct run_cost cost = run_cost_of(run);
   outcome->steps = cost.steps;
   outcome->points = cost.points;
+  outcome->work = cost.work;
   if (!outcome->reason && measured_take(study, run, outcome) != GAMUT_OK)
     return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
   return GAMUT_OK;

@@ -60,9 +60,10 @@ static gamut_status tell(void *self, const struct gamut_batch *batch)
   return GAMUT_OK;
 }
 
-static gamut_status report(const void *self, struct gamut_moments *moments)
+static gamut_status report(const void *self, struct gamut_report *report)
 {
   const struct state *s = self;
+  const struct gamut_moments *moments = &report->moments;
   for (size_t q = 0; q < s->results; q++) {
     const struct sample sample = sample_of(&s->sums[q]);
     const struct interval mean = mean_interval(&sample), variance = variance_interval(&sample);
