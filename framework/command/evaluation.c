@@ -50,8 +50,10 @@ gamut_status evaluation_new(struct evaluation *e, const struct descriptor *descr
       continue;
     slot_label(&e->slot[i], label, sizeof label);
     struct eval_input *input = input_named(e, label);
-    if (!input)
+    if (!input) {
       input = add_input(e, label, e->slot[i].unit);
+      input->from = input->to = descriptor->input[e->slot[i].index].absent;
+    }
     input->read = true;
   }
   return GAMUT_OK;

@@ -84,19 +84,26 @@ static void draw_point(struct block *block, const struct specimen *specimen, siz
                        size_t i)
 {
   struct proof *proof = block->proof;
+  const struct descriptor *d = proof->descriptor;
+  bool absent = false;
   for (size_t s = 0; s < proof->slots; s++) {
     const struct slot *slot = &proof->slot[s];
     char label[96];
     if (!block->kept[s] || !block->array[s])
       continue;
-    if (slot->kind == SLOT_PARAMETER || slot->kind == SLOT_MATERIAL_PARAMETER)
+    /* An optional input is tried with values and, whole, as where it is absent. */
+    if (slot->component == 0)
+      absent = slot->kind == SLOT_INPUT && d->input[slot->index].optional && draw(proof) < 0.25;
+    if (absent)
+      block->array[s][i] = d->input[slot->index].absent;
+    else if (slot->kind == SLOT_PARAMETER || slot->kind == SLOT_MATERIAL_PARAMETER)
       block->array[s][i] = parameter_value(specimen, slot);
     else
       block->array[s][i] = draw_input(proof, slot_label(slot, label, sizeof label), corner);
     /* A symmetric positive history such as a strain measure starts from what the plugin declares.
      */
-    if (slot->kind == SLOT_STATE_BEGIN && proof->descriptor->state[slot->index].components > 1)
-      block->array[s][i] = proof->descriptor->state[slot->index].initial;
+    if (slot->kind == SLOT_STATE_BEGIN && d->state[slot->index].components > 1)
+      block->array[s][i] = d->state[slot->index].initial;
   }
 }
 
@@ -128,9 +135,14 @@ static bool named(const char **list, size_t count, const char *name)
   return false;
 }
 
-static bool adds(const struct work *work, const struct slot *slot)
+/* Changes what others have left: adds to it, scales or lowers it. */
+static bool shares(const struct work *work, const struct slot *slot)
 {
-  return work->task && slot_is_output(slot) && named(work->task->add, work->task->adds, slot->name);
+  const struct kernel_task *task = work->task;
+  return task && slot_is_output(slot) &&
+         (named(task->add, task->adds, slot->name) ||
+          named(task->scale, task->scales, slot->name) ||
+          named(task->lower, task->lowers, slot->name));
 }
 
 static bool writes(const struct work *work, const struct slot *slot)
@@ -146,7 +158,7 @@ static void prepare(struct block *block, const struct work *work)
 {
   block_mark(block);
   for (size_t s = 0; s < block->proof->slots; s++)
-    for (size_t i = 0; adds(work, &block->proof->slot[s]) && i < BLOCK_ROOM; i++)
+    for (size_t i = 0; shares(work, &block->proof->slot[s]) && i < BLOCK_ROOM; i++)
       block->array[s][i] = 0.25;
 }
 
@@ -215,9 +227,10 @@ static void count_writes(const struct block *block, const struct work *work, siz
     if (!block->array[s] || block->kept[s])
       continue;
     for (size_t i = 0; i < BLOCK_ROOM; i++) {
-      bool untouched = adds(work, slot) ? block->array[s][i] == 0.25 : is_mark(block->array[s][i]);
+      bool untouched =
+          shares(work, slot) ? block->array[s][i] == 0.25 : is_mark(block->array[s][i]);
       bool due = i < count && writes(work, slot);
-      bool allowed = due || (i < count && adds(work, slot)) ||
+      bool allowed = due || (i < count && shares(work, slot)) ||
                      (i < count && slot->kind == SLOT_INVERSE_OUTPUT);
       *left += due && untouched;
       *beyond += !allowed && !untouched;
@@ -234,7 +247,7 @@ static size_t unflagged(const struct block *block, const struct work *work, cons
   for (size_t s = 0; s < block->proof->slots; s++)
     for (size_t i = 0; i < BLOCK_POINTS; i++) {
       const struct slot *slot = &block->proof->slot[s];
-      if (!block->array[s] || !(writes(work, slot) || adds(work, slot)))
+      if (!block->array[s] || !(writes(work, slot) || shares(work, slot)))
         continue;
       if (isfinite(block->array[s][i]) || excuse[i] != 0 || bench_status(block->bench)[i] != 0)
         continue;

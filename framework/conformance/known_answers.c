@@ -113,6 +113,28 @@ static void set_inputs(struct answer *a)
   }
 }
 
+/* What the task shares with others it finds as the core starts it. */
+static void start_shared(struct answer *a, const char *const *name, size_t count, double start)
+{
+  for (size_t i = 0; i < count; i++) {
+    const struct slot *slot = slot_called(a->proof, name[i], false);
+    for (size_t k = 0; slot && k < slot->components; k++)
+      array_of(a, slot + k)[0] = start;
+  }
+}
+
+static void set_shared(struct answer *a, kernel_function function)
+{
+  const struct descriptor *d = a->proof->descriptor;
+  for (size_t t = 0; t < d->tasks; t++) {
+    const struct kernel_task *task = &d->task[t];
+    if (kernel_named(a->specimen.kernel, task->kernel) != function)
+      continue;
+    start_shared(a, task->scale, task->scales, access_neutral(GAMUT_SCALE));
+    start_shared(a, task->lower, task->lowers, access_neutral(GAMUT_LEAST));
+  }
+}
+
 static void compare(struct answer *a, double got, const struct tree *node, const char *unit,
                     const char *name)
 {
@@ -250,6 +272,7 @@ static void prove_one(struct proof *proof, const struct tree *test, size_t numbe
   if (made) {
     set_inputs(&a);
     kernel_function function = function_called(&a);
+    set_shared(&a, function);
     if (function)
       bench_call_kept(a.bench, function, 1);
     else

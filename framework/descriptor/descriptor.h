@@ -31,7 +31,9 @@
  *     - {set: [youngs_modulus, poissons_ratio], then: {shear_modulus: "youngs_modulus / (2 * ..)"}}
  *     - {set: [shear_modulus]}         what is in `then`; all names are declared parameters. Those
  *                                      of other sets must not be given. Derived ones need no value.
- *   inputs: [velocity_gradient, viscous_pressure?]   fields read; `?`: zero where nobody has it
+ *   inputs: [velocity_gradient, viscous_pressure?]   fields read; `?`: may be absent. It then reads
+ *                                      as `absent` says, "burn_fraction?: {unit: 1, absent: 1}"
+ *                                      (`inf` is infinite); unless stated as the catalogue has it
  *   outputs: [pressure, sound_speed]   fields written. A field outside the catalogue (another
  *                                      plugin's state) is an item "burn: {unit: 1, components: 1}"
  *   state:                             history: fields of their own, a begin and an end value. Unit
@@ -47,6 +49,8 @@
  *                                      integer and boolean parameters; `drops`: inputs not needed
  *   messages: {beyond_pole: {severity: stop, text: "..."}}
  *   tasks: [{kernel: heat, phase: after material, reads: [..], writes: [..], adds: [..]}]   effects
+ *                                      scales: [..] multiplies an output, lowers: [..] takes the
+ *                                      lesser of two: several effects may, see GAMUT_SCALE
  *   body_parameters:, material_parameters:   like parameters: keys that this plugin adds to every
  *                                      body (solver) or material (effects, elasticity)
  *   requires: [plane]                  names in somebody's `provides`
@@ -129,7 +133,10 @@ struct given_set {
 };
 
 /* A field that a plugin reads or writes, or a law that it calls (no unit, no components). */
-struct field_use { const char *name; bool optional; const char *unit; unsigned components; };
+struct field_use {
+  const char *name; bool optional; const char *unit; unsigned components;
+  double absent; /* what an optional input reads where nobody gives it a value */
+};
 struct state_variable {
   const char *name, *unit, *doc; unsigned components; double initial;
 };
@@ -137,7 +144,8 @@ struct variant { const char *when, *kernel; const char **drop; size_t drops; };
 struct message { const char *name, *text; enum gamut_severity severity; };
 struct kernel_task {
   const char *kernel, *phase;
-  const char **read, **write, **add; size_t reads, writes, adds;
+  const char **read, **write, **add, **scale, **lower;
+  size_t reads, writes, adds, scales, lowers;
 };
 enum measure_at { MEASURE_POINT, MEASURE_BODY, MEASURE_RUN };
 struct measure {

@@ -88,6 +88,8 @@ static void put_member(FILE *file, const struct descriptor *d, const struct slot
     fputs(unit ? ": " : "", file);
     put_comment(file, meaning);
   }
+  if (slot->kind == SLOT_INPUT && d->input[slot->index].optional)
+    fprintf(file, "; %g where absent", d->input[slot->index].absent);
   fputs(" */\n", file);
 }
 

@@ -1,15 +1,38 @@
 /* What a plugin reads, writes, remembers and calls: inputs, outputs, state, scratch, laws,
  * derivatives. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "descriptor/descriptor_private.h"
 #include "field/catalogue.h"
 
-/* "name" or "name?" or "name: {unit: .., components: ..}" (a sequence item). */
+/* What an optional input reads where nobody gives it a value. */
+static void read_absent(struct reader *reader, const struct tree *own, struct field_use *use)
+{
+  const struct field_info *entry = catalogue_find(use->name);
+  const char *text = own ? read_text(reader, own, "absent", false) : NULL;
+  use->absent = entry ? access_neutral(entry->access) : 0.0;
+  if (!text)
+    return;
+  const struct tree *node = tree_get(own, "absent");
+  char expected[128];
+  snprintf(expected, sizeof expected, "%s, or inf", unit_example(use->unit));
+  if (!use->optional)
+    reader_error_at_value(reader, node, "a '?' behind the name", "'%s' is never absent", use->name);
+  else if (entry && entry->where != GAMUT_AT_POINT)
+    reader_error_at_value(reader, node, "no 'absent'", "'%s' has a value in every scene",
+                          use->name);
+  else if (strcmp(text, "inf") == 0)
+    use->absent = INFINITY;
+  else if (unit_read_bare(reader->units, text, use->unit, &use->absent) != UNIT_OK)
+    reader_error_at_value(reader, node, expected, "'%s' is no quantity in %s", text, use->unit);
+}
+
+/* "name" or "name?" or "name: {unit: .., components: .., absent: ..}" (a sequence item). */
 static bool read_field(struct reader *reader, const struct tree *item, struct field_use *use)
 {
-  static const char *const keys[] = {"unit", "components"};
+  static const char *const keys[] = {"unit", "components", "absent"};
   const struct tree *own = NULL;
   if (item->kind == TREE_MAPPING && item->children == 1)
     own = item->child[0];
@@ -50,6 +73,7 @@ static bool read_field(struct reader *reader, const struct tree *item, struct fi
   }
   if (!use->unit)
     use->unit = "1";
+  read_absent(reader, own, use);
   return true;
 }
 

@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "descriptor/descriptor_private.h"
+#include "field/catalogue.h"
 
 static bool read_severity(struct reader *reader, const struct tree *node,
                           enum gamut_severity *severity)
@@ -48,6 +49,14 @@ static void read_message_list(struct reader *reader, const struct tree *node)
   }
 }
 
+static bool is_state(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->states; i++)
+    if (strcmp(d->state[i].name, name) == 0)
+      return true;
+  return false;
+}
+
 static bool is_field(const struct descriptor *d, const char *name, bool written)
 {
   for (size_t i = 0; !written && i < d->inputs; i++)
@@ -56,30 +65,71 @@ static bool is_field(const struct descriptor *d, const char *name, bool written)
   for (size_t i = 0; written && i < d->outputs; i++)
     if (strcmp(d->output[i].name, name) == 0)
       return true;
-  for (size_t i = 0; i < d->states; i++)
-    if (strcmp(d->state[i].name, name) == 0)
-      return true;
-  return false;
+  return is_state(d, name);
 }
 
-static const char **read_accesses(struct reader *reader, const struct tree *task, const char *key,
-                                  size_t *count)
+/* The keys of a task that name fields, and what each does to them. */
+static const struct access_key {
+  const char *key;
+  enum gamut_access access;
+} access_keys[] = {{"reads", GAMUT_READ},
+                   {"writes", GAMUT_WRITE},
+                   {"adds", GAMUT_ADD},
+                   {"scales", GAMUT_SCALE},
+                   {"lowers", GAMUT_LEAST}};
+
+static const char *key_of(enum gamut_access access)
 {
+  size_t k = 0;
+  while (access_keys[k].access != access)
+    k++;
+  return access_keys[k].key;
+}
+
+/* What several may change they change in one way; a state is set by whose it is. */
+static void check_access(struct reader *reader, const struct tree *node, const char *name,
+                         enum gamut_access access)
+{
+  const struct field_info *entry = catalogue_find(name);
+  const bool shared = access == GAMUT_SCALE || access == GAMUT_LEAST;
+  char expected[96];
+  if (access == GAMUT_READ)
+    return;
+  if (entry && entry->access != GAMUT_WRITE && entry->access != access) {
+    snprintf(expected, sizeof expected, "%s: [%s]", key_of(entry->access), name);
+    reader_error_at_value(reader, node, expected,
+                          "several effects may change '%s', and all of them in one way", name);
+  } else if (shared && is_state(reader->descriptor, name)) {
+    reader_error_at_value(reader, node, "writes: [..]",
+                          "'%s' is a state of this plugin: it begins a step as the last one ended",
+                          name);
+  }
+}
+
+static const char **read_accesses(struct reader *reader, const struct tree *task,
+                                  enum gamut_access access, size_t *count)
+{
+  const char *key = key_of(access);
   const struct tree *node = tree_get(task, key);
   const char **list = read_texts(reader, node, key, count);
-  bool written = strcmp(key, "reads") != 0;
-  for (size_t i = 0; i < *count; i++)
-    if (!is_field(reader->descriptor, list[i], written))
-      reader_error_at_value(reader, node->kind == TREE_SEQUENCE ? node->child[i] : node,
+  bool written = access != GAMUT_READ;
+  for (size_t i = 0; i < *count; i++) {
+    const struct tree *item = node->kind == TREE_SEQUENCE ? node->child[i] : node;
+    if (is_field(reader->descriptor, list[i], written))
+      check_access(reader, item, list[i], access);
+    else
+      reader_error_at_value(reader, item,
                             written ? "declare it under 'outputs' or 'state'"
                                     : "declare it under 'inputs' or 'state'",
                             "'%s' is no field of this plugin", list[i]);
+  }
   return list;
 }
 
 static void read_tasks(struct reader *reader, const struct tree *node)
 {
-  static const char *const keys[] = {"kernel", "phase", "reads", "writes", "adds"};
+  static const char *const keys[] = {"kernel", "phase",  "reads", "writes",
+                                     "adds",   "scales", "lowers"};
   struct descriptor *d = reader->descriptor;
   if (!node)
     return;
@@ -97,11 +147,14 @@ static void read_tasks(struct reader *reader, const struct tree *node)
       continue;
     task->kernel = read_text(reader, item, "kernel", true);
     task->phase = read_text(reader, item, "phase", true);
-    task->read = read_accesses(reader, item, "reads", &task->reads);
-    task->write = read_accesses(reader, item, "writes", &task->writes);
-    task->add = read_accesses(reader, item, "adds", &task->adds);
-    if (task->writes + task->adds == 0)
-      reader_error_at_value(reader, item, "writes: [..] or adds: [..]",
+    task->read = read_accesses(reader, item, GAMUT_READ, &task->reads);
+    task->write = read_accesses(reader, item, GAMUT_WRITE, &task->writes);
+    task->add = read_accesses(reader, item, GAMUT_ADD, &task->adds);
+    task->scale = read_accesses(reader, item, GAMUT_SCALE, &task->scales);
+    task->lower = read_accesses(reader, item, GAMUT_LEAST, &task->lowers);
+    if (task->writes + task->adds + task->scales + task->lowers == 0)
+      reader_error_at_value(reader, item,
+                            "one of writes: [..], adds: [..], scales: [..], lowers: [..]",
                             "this task changes nothing");
     if (task->kernel && task->phase)
       d->tasks++;

@@ -193,6 +193,8 @@ static void put_uses(FILE *file, const char *title, const struct field_use *use,
     if (use[i].unit)
       fprintf(file, " in %s", use[i].unit);
     fputs(use[i].optional ? ", optional" : "", file);
+    if (use[i].optional && use[i].absent != 0.0)
+      fprintf(file, ", %g where absent", use[i].absent);
     fprintf(file, "%s%s\n", entry ? ": " : "", entry ? entry->meaning : "");
   }
 }
@@ -229,6 +231,8 @@ static void put_tasks(FILE *file, const struct descriptor *d)
     put_names(file, "    reads ", d->task[i].read, d->task[i].reads);
     put_names(file, "    writes ", d->task[i].write, d->task[i].writes);
     put_names(file, "    adds to ", d->task[i].add, d->task[i].adds);
+    put_names(file, "    scales ", d->task[i].scale, d->task[i].scales);
+    put_names(file, "    lowers ", d->task[i].lower, d->task[i].lowers);
   }
   if (d->messages)
     fputs("\nmessages\n", file);

@@ -94,6 +94,9 @@ static json_t *uses(const struct field_use *use, size_t count)
     json_t *value = json_object();
     set_text(value, "name", use[i].name);
     json_object_set_new(value, "optional", json_boolean(use[i].optional));
+    if (use[i].optional && use[i].components)
+      json_object_set_new(value, "absent", isfinite(use[i].absent) ? json_real(use[i].absent)
+                                                                   : json_string("inf"));
     set_text(value, "unit", use[i].unit);
     if (use[i].components)
       json_object_set_new(value, "components", json_integer(use[i].components));
@@ -166,6 +169,8 @@ static json_t *tasks(const struct descriptor *d)
     json_object_set_new(value, "reads", texts(d->task[i].read, d->task[i].reads));
     json_object_set_new(value, "writes", texts(d->task[i].write, d->task[i].writes));
     json_object_set_new(value, "adds", texts(d->task[i].add, d->task[i].adds));
+    json_object_set_new(value, "scales", texts(d->task[i].scale, d->task[i].scales));
+    json_object_set_new(value, "lowers", texts(d->task[i].lower, d->task[i].lowers));
     json_array_append_new(list, value);
   }
   return list;

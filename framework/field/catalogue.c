@@ -2,14 +2,24 @@
 #include "base/array.h"
 
 #include <assert.h>
+#include <math.h>
 #include <string.h>
 
 static const struct field_info catalogue[] = {
 #define CATALOGUE_ENTRY(name, where, components, unit, meaning)                                    \
-  {#name, where, components, unit, meaning},
+  {#name, where, components, unit, meaning, GAMUT_WRITE},
     FIELD_CATALOGUE(CATALOGUE_ENTRY)
 #undef CATALOGUE_ENTRY
+#define CATALOGUE_ENTRY(name, access, unit, meaning)                                               \
+  {#name, GAMUT_AT_POINT, 1, unit, meaning, access},
+        FIELD_CATALOGUE_SHARED(CATALOGUE_ENTRY)
+#undef CATALOGUE_ENTRY
 };
+
+double access_neutral(enum gamut_access access)
+{
+  return access == GAMUT_SCALE ? 1.0 : access == GAMUT_LEAST ? (double)INFINITY : 0.0;
+}
 
 enum { CATALOGUE_SIZE = ARRAY_SIZE(catalogue) };
 

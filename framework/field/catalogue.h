@@ -45,12 +45,24 @@
   X(time_step, GAMUT_AT_RUN, 1, "s", "length of the step")                                         \
   X(cell_size, GAMUT_AT_RUN, 1, "m", "edge of a grid cell")
 
+/* Y(name, access, unit, meaning): one number at a point that several may change in one step, by
+ * that access alone. Where nobody does it is what the access starts from. */
+#define FIELD_CATALOGUE_SHARED(Y)                                                                  \
+  Y(flow_stress_factor, GAMUT_SCALE, "1",                                                          \
+    "what is left of the flow stress: the core multiplies the law's results by it")                \
+  Y(opening_tension, GAMUT_LEAST, "Pa", "tension at which material opens; infinite: it does not")  \
+  Y(closing_pressure, GAMUT_LEAST, "Pa", "pressure at which open material closes")
+
 struct field_info {
   const char *name;
   enum gamut_where where;
   unsigned components;
   const char *unit, *meaning;
+  enum gamut_access access; /* GAMUT_WRITE: whoever writes it decides */
 };
+/* What an access that several may have starts from: 0 of sums, 1 of products, infinity of the
+ * least; 0 of the others. */
+double access_neutral(enum gamut_access);
 
 /* The entry of that name, or null. */
 const struct field_info *catalogue_find(const char *name);

@@ -115,8 +115,6 @@ enum source {
   SOURCE_ARRAY,   /* begin and end: the stored array */
   SOURCE_FRESH,   /* history written in this sweep: begin the stored array, end scratch */
   SOURCE_SCRATCH, /* begin and end: scratch */
-  SOURCE_CLEARED, /* scratch, cleared at the start of each chunk because tasks add to it */
-  SOURCE_ARRAY_CLEARED, /* the same for a stored one */
   SOURCE_ZERO,    /* zeros: read, but nobody writes it on this set */
   SOURCE_UNIFORM  /* one value a run */
 };

@@ -54,8 +54,6 @@ void scratch_bind(struct lane_scratch *scratch, const struct point_set *set,
     case SOURCE_NONE: break;
     case SOURCE_ARRAY: begin = end = array; break;
     case SOURCE_FRESH: begin = array; end = row; break;
-    case SOURCE_CLEARED: memset(row, 0, count * sizeof *row); begin = end = row; break;
-    case SOURCE_ARRAY_CLEARED: memset(array, 0, count * sizeof *row); begin = end = array; break;
     case SOURCE_SCRATCH: begin = end = row; break;
     case SOURCE_ZERO: begin = end = scratch->zero; break;
     case SOURCE_UNIFORM: begin = end = uniform[k]; break;

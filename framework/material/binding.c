@@ -204,6 +204,7 @@ gamut_status material_new(const struct material *material, struct registry *regi
   bound->temperature = component_or_none(fields, "temperature");
   bound->plastic_strain = component_or_none(fields, "plastic_strain");
   bound->step_factor = component_or_none(fields, "step_factor");
+  bound->flow_stress_factor = SIZE_MAX;
   TRY(make_thread_states(bound, trace));
   TRY(elasticity_try(bound->kernel[ELASTICITY], bound->per_thread[0].law[STRENGTH],
                      bound->per_thread[0].law[EOS], trace));
@@ -244,6 +245,36 @@ const struct gamut_use *material_uses(const struct bound_material *bound, size_t
   return bound->use;
 }
 
+const struct gamut_use *material_offers(const struct bound_material *bound, size_t *count)
+{
+  static const struct gamut_use factor = {"flow_stress_factor", GAMUT_READ_IF};
+  *count = bound->kernel[STRENGTH] ? 1 : 0;
+  return &factor;
+}
+
+void material_resolve(struct bound_material *bound, const struct task *task)
+{
+  for (int role = 0; role < ROLES; role++)
+    if (bound->kernel[role])
+      links_resolve(bound->kernel[role], &bound->links[role], task);
+  for (size_t u = 0; bound->kernel[STRENGTH] && u < task->uses; u++)
+    if (strcmp(task->use[u].field->name, "flow_stress_factor") == 0)
+      bound->flow_stress_factor = task->use[u].field->handle.first;
+}
+
+size_t material_bad_factor(const struct bound_material *bound, const struct gamut_chunk *chunk,
+                           double *factor)
+{
+  const double *all =
+      bound->flow_stress_factor != SIZE_MAX ? chunk->begin[bound->flow_stress_factor] : NULL;
+  for (size_t i = 0; all && i < chunk->count; i++)
+    if (!(all[i] >= 0.0 && all[i] < HUGE_VAL) && chunk->set->id[chunk->slot + i] >= 0) {
+      *factor = all[i];
+      return i;
+    }
+  return SIZE_MAX;
+}
+
 static void fill_argument(double *row, size_t component, const struct gamut_chunk *chunk)
 {
   const double *from = component != SIZE_MAX ? chunk->begin[component] : NULL;
@@ -266,6 +297,8 @@ static void follow(struct bound_material *bound, struct thread_state *state,
   }
   if (!state->law[STRENGTH])
     return;
+  state->law[STRENGTH]->factor =
+      bound->flow_stress_factor != SIZE_MAX ? chunk->begin[bound->flow_stress_factor] : NULL;
   const struct gamut_strength_law *strength = &state->law[STRENGTH]->strength;
   fill_argument(strength->temperature, bound->temperature, chunk);
   fill_argument(strength->plastic_strain, bound->plastic_strain, chunk);

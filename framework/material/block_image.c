@@ -24,7 +24,8 @@ void image_follow(struct image *image, const struct link *link, size_t links,
   image->count = chunk->count;
   for (size_t i = 0; i < links; i++) {
     double *array = (link[i].begin ? chunk->begin : chunk->end)[link[i].component];
-    image->pointer[link[i].slot] = array ? array : link[i].written ? sink : zero;
+    double *none = link[i].absent ? link[i].absent : link[i].written ? sink : zero;
+    image->pointer[link[i].slot] = array ? array : none;
   }
 }
 
@@ -94,9 +95,26 @@ gamut_status links_new(const struct kernel *kernel, struct fields *fields, struc
                       .component = field->handle.first + slot->component,
                       .begin = slot->kind == SLOT_STATE_BEGIN || slot->kind == SLOT_INPUT ||
                                slot_varies(kernel, s),
-                      .written = slot->kind == SLOT_OUTPUT || slot->kind == SLOT_STATE_END};
+                      .written = slot->kind == SLOT_OUTPUT || slot->kind == SLOT_STATE_END,
+                      .absent = kernel->absent[s]};
   }
   return GAMUT_OK;
+}
+
+void links_resolve(const struct kernel *kernel, struct links *links, const struct task *task)
+{
+  for (size_t i = 0; i < links->count; i++) {
+    struct link *link = &links->link[i];
+    if (kernel->slot[link->slot].kind != SLOT_INPUT)
+      continue;
+    link->begin = false;
+    for (size_t u = 0; u < task->uses; u++) {
+      const struct gamut_field handle = task->use[u].field->handle;
+      if (link->component >= handle.first && link->component < handle.first + handle.components)
+        link->begin |=
+            task->use[u].access == GAMUT_READ_LAST || task->use[u].access == GAMUT_READ_BEGIN;
+    }
+  }
 }
 
 void links_free(struct links *links)

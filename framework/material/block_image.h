@@ -21,6 +21,7 @@ struct link {
   size_t component; /* of the run's fields */
   bool begin;       /* leads to the value at the beginning of the step */
   bool written;     /* the kernel writes there: a null chunk pointer means a sink, not zeros */
+  double *absent;   /* what a null chunk pointer means; null: zeros */
 };
 
 struct kernel {
@@ -32,6 +33,7 @@ struct kernel {
   struct arena *arena;
   const struct values *extra; /* material parameters of plugins, or null */
   double **uniform; /* one a slot: array of equal values, or null */
+  double **absent;  /* one a slot: what an optional input reads where it is absent; null: zeros */
   char **path;      /* one a slot: scene path of a parameter with a random field, or null */
   kernel_function main;
   char variant[160];
@@ -40,6 +42,8 @@ struct kernel {
 struct image *image_new(const struct kernel *, struct arena *, size_t rows, const char *label);
 /* Whether a parameter differs from point to point: it then follows the chunk as a field does. */
 bool slot_varies(const struct kernel *, size_t slot);
+/* What an optional input reads where it is absent; 0 of all else. */
+double slot_absent(const struct kernel *, size_t slot);
 /* Its mean. */
 double kernel_mean(const struct kernel *, size_t slot);
 /* Points the linked slots at the chunk. zero and sink are arrays of the chunk's length. */
@@ -54,6 +58,9 @@ struct links {
 };
 gamut_status links_new(const struct kernel *, struct fields *, struct trace *, struct links *);
 void links_free(struct links *);
+/* After planning: a plain input means the end of the step unless the plan says that the task reads
+ * its beginning, or that it is not written yet by then. */
+void links_resolve(const struct kernel *, struct links *, const struct task *);
 /* Declares the field of a slot that follows the chunk; null and a message on failure. */
 struct field *slot_field(const struct kernel *, size_t slot, struct fields *, struct trace *);
 

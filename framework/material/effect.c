@@ -51,7 +51,7 @@ static bool at_point(const char *name)
 static gamut_status collect_uses(const struct descriptor *d, const struct kernel_task *from,
                                  struct effect_task *to)
 {
-  size_t most = from->reads + 2 * from->writes + from->adds;
+  size_t most = from->reads + 2 * from->writes + from->adds + from->scales + from->lowers;
   to->use = calloc(most + 1, sizeof *to->use);
   if (!to->use)
     return GAMUT_INTERNAL;
@@ -66,6 +66,10 @@ static gamut_status collect_uses(const struct descriptor *d, const struct kernel
   }
   for (size_t i = 0; i < from->adds; i++)
     to->use[to->uses++] = (struct gamut_use){from->add[i], GAMUT_ADD};
+  for (size_t i = 0; i < from->scales; i++)
+    to->use[to->uses++] = (struct gamut_use){from->scale[i], GAMUT_SCALE};
+  for (size_t i = 0; i < from->lowers; i++)
+    to->use[to->uses++] = (struct gamut_use){from->lower[i], GAMUT_LEAST};
   return GAMUT_OK;
 }
 
@@ -200,26 +204,10 @@ const struct gamut_use *effect_uses(struct bound_effect *bound, size_t task, siz
   return bound->task[task].use;
 }
 
-/* A plain input means the end of the step unless the plan says that it is not written yet by then.
- */
 void effect_resolve(struct bound_effect *bound, size_t task, const struct task *planned)
 {
-  for (size_t m = 0; m < bound->materials; m++) {
-    struct links *links = &bound->task[task].links[m];
-    for (size_t i = 0; i < links->count; i++) {
-      struct link *link = &links->link[i];
-      if (bound->kernel[m]->slot[link->slot].kind != SLOT_INPUT)
-        continue;
-      link->begin = false;
-      for (size_t u = 0; u < planned->uses; u++) {
-        struct gamut_field handle = planned->use[u].field->handle;
-        if (link->component >= handle.first &&
-            link->component < handle.first + handle.components)
-          link->begin |= planned->use[u].access == GAMUT_READ_LAST ||
-                         planned->use[u].access == GAMUT_READ_BEGIN;
-      }
-    }
-  }
+  for (size_t m = 0; m < bound->materials; m++)
+    links_resolve(bound->kernel[m], &bound->task[task].links[m], planned);
 }
 
 void effect_call(struct bound_effect *bound, size_t task, size_t material,

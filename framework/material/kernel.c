@@ -157,6 +157,26 @@ static gamut_status fill_uniform(struct kernel *kernel, size_t size, const struc
   return GAMUT_OK;
 }
 
+/* Rows for the inputs that do not read zero where they are absent. */
+static gamut_status fill_absent(struct kernel *kernel, size_t size)
+{
+  kernel->absent = calloc(kernel->slots + 1, sizeof(*kernel->absent));
+  if (!kernel->absent)
+    return GAMUT_INTERNAL;
+  for (size_t s = 0; s < kernel->slots; s++) {
+    const double value = slot_absent(kernel, s);
+    if (value == 0.0)
+      continue;
+    double *array = arena_take(kernel->arena, "parameters", size * sizeof *array);
+    if (!array)
+      return GAMUT_INTERNAL;
+    for (size_t i = 0; i < size; i++)
+      array[i] = value;
+    kernel->absent[s] = array;
+  }
+  return GAMUT_OK;
+}
+
 gamut_status kernel_new(const struct instance *instance, struct registry *registry,
                         struct arena *arena, size_t size, const struct values *material_extra,
                         double density, struct trace *trace, struct kernel **out)
@@ -179,7 +199,8 @@ gamut_status kernel_new(const struct instance *instance, struct registry *regist
     goto done;
   }
   choose_variant(kernel);
-  if (fill_uniform(kernel, size, material_extra, density) != GAMUT_OK)
+  if (fill_uniform(kernel, size, material_extra, density) != GAMUT_OK ||
+      fill_absent(kernel, size) != GAMUT_OK)
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
 done:
   if (status != GAMUT_OK) {
@@ -196,12 +217,23 @@ void kernel_free(struct kernel *kernel)
     return;
   for (size_t s = 0; kernel->uniform && s < kernel->slots; s++)
     arena_give(kernel->arena, kernel->uniform[s]);
+  for (size_t s = 0; kernel->absent && s < kernel->slots; s++)
+    arena_give(kernel->arena, kernel->absent[s]);
   for (size_t s = 0; kernel->path && s < kernel->slots; s++)
     free(kernel->path[s]);
   free(kernel->path);
   free(kernel->uniform);
+  free(kernel->absent);
   free(kernel->slot);
   free(kernel);
+}
+
+double slot_absent(const struct kernel *kernel, size_t slot)
+{
+  const struct slot *s = &kernel->slot[slot];
+  const struct field_use *input =
+      s->kind == SLOT_INPUT ? &kernel->descriptor->input[s->index] : NULL;
+  return input && input->optional ? input->absent : 0.0;
 }
 
 double kernel_mean(const struct kernel *kernel, size_t slot)

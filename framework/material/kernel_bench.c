@@ -55,6 +55,8 @@ static void fill(struct bench *bench, size_t slot)
     value = kernel_mean(bench->kernel, slot);
   else if (s->kind == SLOT_STATE_BEGIN || s->kind == SLOT_STATE_END)
     value = bench->kernel->descriptor->state[s->index].initial;
+  else
+    value = slot_absent(bench->kernel, slot);
   for (size_t i = 0; i < bench->stride; i++)
     row(bench, slot)[i] = value;
 }

@@ -31,11 +31,33 @@ static void call(const struct law *law, struct image *image)
   guard_leave(before);
 }
 
+/* What effects leave of the flow stress, they leave of all that follows from it. */
+static void scale_all(struct law *law)
+{
+  const double *factor = law->factor;
+  for (size_t k = 0; factor && k < law->scales; k++) {
+    double *to = law->image->pointer[law->scaled[k]];
+    for (size_t i = 0; to && i < law->image->count; i++)
+      to[i] *= factor[i];
+  }
+}
+
+static void scale_listed(struct law *law, const uint32_t *lane, size_t lanes)
+{
+  const double *factor = law->factor;
+  for (size_t k = 0; factor && k < law->scales; k++) {
+    double *to = law->image->pointer[law->scaled[k]];
+    for (size_t i = 0; to && i < lanes; i++)
+      to[lane[i]] *= factor[lane[i]];
+  }
+}
+
 /* Evaluates every point in place. */
 static void evaluate_all(struct law *law)
 {
   memset(law->image->status, 0, law->image->count * sizeof *law->image->status);
   call(law, law->image);
+  scale_all(law);
 }
 
 static void gather(struct law *law, const uint32_t *lane, size_t lanes)
@@ -72,6 +94,7 @@ static void evaluate(struct law *law, const uint32_t *lane, size_t lanes)
   law->compact->count = lanes;
   call(law, law->compact);
   spread(law, lane, lanes);
+  scale_listed(law, lane, lanes);
 }
 
 static void evaluate_strength(const struct gamut_strength_law *strength, const uint32_t *lane,
@@ -142,6 +165,34 @@ static bool list_rows(struct law *law, struct arena *arena, const char *label)
   return law->row != NULL;
 }
 
+static bool list_scaled(struct law *law, struct arena *arena, const char *label)
+{
+  static const char flow[] = "flow_stress";
+  const struct kernel *kernel = law->kernel;
+  const char *of = kernel->descriptor->derivative_of;
+  law->scaled = arena_take(arena, label, (kernel->slots + 1) * sizeof *law->scaled);
+  for (size_t s = 0; law->scaled && s < kernel->slots; s++) {
+    const struct slot *slot = &kernel->slot[s];
+    const bool derivative = slot->kind == SLOT_DERIVATIVE || slot->kind == SLOT_SECOND_DERIVATIVE;
+    if (derivative ? of && strcmp(of, flow) == 0
+                   : slot->kind == SLOT_OUTPUT && strncmp(slot->name, flow, sizeof flow - 1) == 0)
+      law->scaled[law->scales++] = s;
+  }
+  return law->scaled != NULL;
+}
+
+/* Inputs that nobody sets: as where they are absent. */
+static void fill_absent(struct law *law)
+{
+  const struct kernel *kernel = law->kernel;
+  for (size_t s = 0; s < kernel->slots; s++) {
+    const double value = has_row(kernel, s) ? slot_absent(kernel, s) : 0.0;
+    double *row = law->image->pointer[s];
+    for (size_t i = 0; value != 0.0 && i < law->rows; i++)
+      row[i] = value;
+  }
+}
+
 gamut_status law_new(const struct kernel *kernel, struct arena *arena, size_t rows,
                      struct law **out)
 {
@@ -161,7 +212,7 @@ gamut_status law_new(const struct kernel *kernel, struct arena *arena, size_t ro
   law->memory = arena_take(arena, label, count * law->stride * sizeof(double));
   law->gathered = arena_take(arena, label, count * law->stride * sizeof(double));
   if (!law->image || !law->compact || !law->memory || !law->gathered ||
-      !list_rows(law, arena, label))
+      !list_rows(law, arena, label) || !list_scaled(law, arena, label))
     return GAMUT_INTERNAL;
   size_t row = 0;
   for (size_t s = 0; s < kernel->slots; s++)
@@ -173,6 +224,7 @@ gamut_status law_new(const struct kernel *kernel, struct arena *arena, size_t ro
   double *unread = law->memory + row * law->stride, *zero = unread + law->stride;
   show_strength(law, unread, zero);
   show_eos(law, unread, zero);
+  fill_absent(law);
   return GAMUT_OK;
 }
 
@@ -189,6 +241,7 @@ void law_free(struct law *law, struct arena *arena)
   arena_give(arena, law->memory);
   arena_give(arena, law->gathered);
   arena_give(arena, law->row);
+  arena_give(arena, law->scaled);
   arena_give(arena, law);
 }
 
@@ -206,4 +259,5 @@ void law_clear(struct law *law)
   memset(law->memory, 0, count * law->stride * sizeof(double));
   memset(law->gathered, 0, count * law->stride * sizeof(double));
   memset(law->image->status, 0, law->rows * sizeof *law->image->status);
+  fill_absent(law);
 }

@@ -14,6 +14,9 @@ struct law {
   size_t rows, stride;
   size_t *row; /* slots that have a row: arguments first, then results */
   size_t arguments, results;
+  size_t *scaled; /* slots of the flow stress, its slopes and its derivatives */
+  size_t scales;
+  const double *factor; /* of the block at work, multiplied into these; null: nobody changes it */
   uint64_t evaluated; /* points, so far */
   double *memory;        /* arguments, results, sinks: one row a slot that is not uniform */
   double *gathered;      /* the same rows for listed points */

@@ -27,6 +27,7 @@ struct bound_material {
   struct arena *arena;
   size_t temperature, plastic_strain; /* components that fill a law's arguments; SIZE_MAX: none */
   size_t step_factor;                 /* component, where the elasticity gives one */
+  size_t flow_stress_factor;          /* component, where an effect writes it; SIZE_MAX: none */
 };
 
 #endif

@@ -67,7 +67,11 @@ static enum due due_of(const struct trial *trial, size_t s)
     return is_written(slot->kind) ? WRITTEN : KEPT;
   if (named(task->write, task->writes, slot->name))
     return WRITTEN;
-  return named(task->add, task->adds, slot->name) ? ADDED : KEPT;
+  return named(task->add, task->adds, slot->name) ||
+                 named(task->scale, task->scales, slot->name) ||
+                 named(task->lower, task->lowers, slot->name)
+             ? ADDED
+             : KEPT;
 }
 
 static bool is_derivative(enum slot_kind kind)

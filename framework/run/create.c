@@ -107,11 +107,26 @@ static gamut_status run_inner(const struct material_job *job, const struct gamut
   return status;
 }
 
+/* A strength that is less than none, or no number, would pass for no flow at all. */
+static gamut_status check_factor(struct gamut_run *run, const struct gamut_chunk *chunk)
+{
+  double factor;
+  const size_t i = material_bad_factor(run->material[set_material(chunk->set)], chunk, &factor);
+  if (i == SIZE_MAX)
+    return GAMUT_OK;
+  return trace_fail(run->trace, GAMUT_NUMERICS,
+                    "effects leave point %lld of body '%s' a flow_stress_factor of %g, where a "
+                    "number of at least 0 is due",
+                    (long long)chunk->set->id[chunk->slot + i], chunk->set->body, factor);
+}
+
 static gamut_status run_material_job(void *self, const struct gamut_chunk *chunk)
 {
   struct material_job *job = self;
   struct bound_material *material = job->run->material[set_material(chunk->set)];
-  gamut_status status = GAMUT_OK;
+  gamut_status status = check_factor(job->run, chunk);
+  if (status != GAMUT_OK)
+    return status;
   if (job->inner)
     status = run_inner(job, chunk);
   else
@@ -156,6 +171,10 @@ static gamut_status add_material_task(struct gamut_run *run, const char *owner,
   gamut_status status = schedule_add(run->schedule, owner, place_of_owner(run), &whole, run->fields,
                                      set, NULL, run->trace);
   free(all);
+  if (status == GAMUT_OK) {
+    const struct gamut_use *offer = material_offers(run->material[run->set[set]->material], &count);
+    schedule_offer(run->schedule, offer, count);
+  }
   return status;
 }
 
@@ -214,6 +233,15 @@ static gamut_status add_own_material_tasks(struct gamut_run *run)
   }
 done:
   return status;
+}
+
+static void resolve_materials(struct gamut_run *run)
+{
+  for (size_t i = 0; i < schedule_tasks(run->schedule); i++) {
+    const struct task *task = schedule_task(run->schedule, i);
+    if (task->live && task->run == run_material_job)
+      material_resolve(run->material[run->set[task->only_set]->material], task);
+  }
 }
 
 static gamut_status check_sets(const struct gamut_run *run)
@@ -290,6 +318,7 @@ static gamut_status assemble(struct gamut_run *run)
   TRY(schedule_plan(run->schedule, run->fields, run->scene->bodies, run->trace));
   TRY(effects_check(run));
   TRY(effects_resolve(run));
+  resolve_materials(run);
   TRY(allocate_all(run));
 done:
   return status;

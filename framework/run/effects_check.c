@@ -9,8 +9,7 @@ static bool imposes_stress(const struct task *task, const char *owner)
 {
   bool writes = false;
   for (size_t u = 0; u < task->uses; u++)
-    writes |= strcmp(task->use[u].field->name, "stress") == 0 &&
-              (task->use[u].access == GAMUT_WRITE || task->use[u].access == GAMUT_ADD);
+    writes |= strcmp(task->use[u].field->name, "stress") == 0 && access_writes(task->use[u].access);
   return task->live && writes && strcmp(task->owner, owner) == 0;
 }
 

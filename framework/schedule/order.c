@@ -3,15 +3,6 @@
 
 #include "schedule/schedule_private.h"
 
-static bool uses_as(const struct task *task, const struct field *field,
-                    bool (*test)(enum gamut_access))
-{
-  for (size_t i = 0; i < task->uses; i++)
-    if (task->use[i].field == field && test(task->use[i].access))
-      return true;
-  return false;
-}
-
 static bool reads_end(enum gamut_access access)
 {
   return access == GAMUT_READ || access == GAMUT_READ_IF;
@@ -34,11 +25,11 @@ static bool must_precede(const struct task *one, const struct task *other)
   for (size_t u = 0; u < one->uses; u++) {
     const struct field *field = one->use[u].field;
     enum gamut_access access = one->use[u].access;
-    if (access_writes(access) && uses_as(other, field, reads_end) &&
-        !(uses_as(other, field, access_writes) && uses_as(one, field, access_reads)))
+    if (access_writes(access) && task_uses_as(other, field, reads_end) &&
+        !(task_uses_as(other, field, access_writes) && task_uses_as(one, field, access_reads)))
       return true;
-    if (reads_last(access) && !field->history && uses_as(other, field, access_writes) &&
-        !uses_as(one, field, access_writes) && !uses_as(other, field, reads_last))
+    if (reads_last(access) && !field->history && task_uses_as(other, field, access_writes) &&
+        !task_uses_as(one, field, access_writes) && !task_uses_as(other, field, reads_last))
       return true;
   }
   return false;
@@ -111,11 +102,11 @@ static const struct field *lost_between(const struct task *one, const struct tas
 {
   for (size_t u = 0; u < one->uses; u++) {
     const struct field *field = one->use[u].field;
-    if (!field->history || one->use[u].access != GAMUT_WRITE || uses_as(one, field, reads_end))
+    if (!field->history || one->use[u].access != GAMUT_WRITE || task_uses_as(one, field, reads_end))
       continue;
     for (size_t k = 0; k < other->uses; k++)
       if (other->use[k].field == field && other->use[k].access == GAMUT_WRITE &&
-          !uses_as(other, field, reads_end))
+          !task_uses_as(other, field, reads_end))
         return field;
   }
   return NULL;

@@ -20,6 +20,9 @@ static void task_free(struct task *task)
     return;
   free(task->name);
   free(task->owner);
+  for (size_t i = 0; i < task->clears; i++)
+    free(task->clear[i].on_set);
+  free(task->clear);
   free(task->use);
   free(task->why);
   free(task);
@@ -51,20 +54,31 @@ void schedule_free(struct schedule *schedule)
 
 bool access_reads(enum gamut_access access)
 {
-  return access != GAMUT_WRITE && access != GAMUT_ADD;
+  return !access_writes(access);
 }
 
 bool access_writes(enum gamut_access access)
 {
-  return access == GAMUT_WRITE || access == GAMUT_ADD;
+  return access == GAMUT_WRITE || access_shares(access);
+}
+
+bool access_shares(enum gamut_access access)
+{
+  return access == GAMUT_ADD || access == GAMUT_SCALE || access == GAMUT_LEAST;
+}
+
+bool task_uses_as(const struct task *task, const struct field *field,
+                  bool (*test)(enum gamut_access))
+{
+  for (size_t i = 0; i < task->uses; i++)
+    if (task->use[i].field == field && test(task->use[i].access))
+      return true;
+  return false;
 }
 
 bool task_writes(const struct task *task, const struct field *field)
 {
-  for (size_t i = 0; i < task->uses; i++)
-    if (task->use[i].field == field && access_writes(task->use[i].access))
-      return true;
-  return false;
+  return task_uses_as(task, field, access_writes);
 }
 
 bool task_on_set(const struct task *task, size_t set)
@@ -100,8 +114,13 @@ static gamut_status copy_uses(struct task *to, const struct gamut_task *from, st
                         "task '%s' of %s names the field '%s', which nobody "
                         "declares",
                         from->name, to->owner, from->uses[i].field);
-    to->use[to->uses].field = field;
-    to->use[to->uses++].access = from->uses[i].access;
+    const enum gamut_access access = from->uses[i].access;
+    if (access_shares(access) && from->extent != GAMUT_PER_CHUNK)
+      return trace_fail(trace, GAMUT_PLUGIN,
+                        "task '%s' of %s shares the field '%s' with others: only a task "
+                        "GAMUT_PER_CHUNK can add, scale or lower",
+                        from->name, to->owner, field->name);
+    to->use[to->uses++] = (struct use){field, access, access == GAMUT_READ_IF};
   }
   return GAMUT_OK;
 }
@@ -138,6 +157,29 @@ done:
   return status;
 }
 
+void schedule_offer(struct schedule *schedule, const struct gamut_use *offer, size_t count)
+{
+  struct task *task = schedule->task[schedule->tasks - 1];
+  task->offer = offer;
+  task->offers = count;
+}
+
+/* Offers become uses where the field is there. */
+static void settle_offers(struct task *task, const struct fields *fields)
+{
+  struct use *grown = realloc(task->use, (task->uses + task->offers + 1) * sizeof *grown);
+  if (!grown)
+    memory_ended();
+  task->use = grown;
+  for (size_t i = 0; i < task->offers; i++) {
+    struct field *field = fields_find(fields, task->offer[i].field);
+    const enum gamut_access access = task->offer[i].access;
+    if (field && field->where == GAMUT_AT_POINT)
+      task->use[task->uses++] = (struct use){field, access, access == GAMUT_READ_IF};
+  }
+  task->offers = 0;
+}
+
 void schedule_plugin(struct schedule *schedule, const char *plugin)
 {
   schedule->task[schedule->tasks - 1]->plugin = plugin;
@@ -168,9 +210,12 @@ gamut_status schedule_plan(struct schedule *schedule, struct fields *fields, siz
                            struct trace *trace)
 {
   gamut_status status;
+  for (size_t i = 0; i < schedule->tasks; i++)
+    settle_offers(schedule->task[i], fields);
   TRY(plan_liveness(schedule, trace));
   TRY(plan_order(schedule, trace));
   TRY(plan_conflicts(schedule, sets, trace));
+  TRY(plan_shared(schedule, sets, trace));
   TRY(plan_sweeps(schedule, fields, sets, trace));
 done:
   return status;

@@ -15,8 +15,21 @@ struct task {
   const char *plugin;         /* borrowed: whose code it is; null: the core's */
   size_t phase;
   enum gamut_extent extent;
-  struct use { struct field *field; enum gamut_access access; } *use;
+  struct use {
+    struct field *field;
+    enum gamut_access access;
+    bool optional; /* reads it only where somebody writes it */
+  } *use;
   size_t uses;
+  struct clear {            /* what it is the first to share in a step */
+    size_t component;
+    double start;           /* what the component is set to before */
+    bool *on_set;           /* one a set: where that is so */
+    bool early;             /* set before the first task of its sweep, not right before it */
+  } *clear;
+  size_t clears;
+  const struct gamut_use *offer; /* borrowed; uses if anybody else names the field, see below */
+  size_t offers;
   bool essential, live;
   char *why;                  /* why it is live or not, for explain */
   gamut_status (*run)(void *self, const struct gamut_chunk *);
@@ -41,6 +54,9 @@ void schedule_free(struct schedule *);
 gamut_status schedule_add(struct schedule *, const char *owner, const struct place *place,
                           const struct gamut_task *, struct fields *, size_t only_set,
                           const bool *on_set, struct trace *);
+/* What the task that was added last reads or writes as well if a field of that name is there when
+ * the plan is made: of READ_IF and WRITE at points. Nothing is declared for it. Borrowed. */
+void schedule_offer(struct schedule *, const struct gamut_use *, size_t count);
 /* Says whose code the task that was added last is. Borrowed. */
 void schedule_plugin(struct schedule *, const char *plugin);
 /* Records an effect (or task) that is off, with the reason, for explain. */
@@ -53,6 +69,9 @@ void schedule_want(struct schedule *, struct field *, size_t set, const char *wh
 /* Works the plan out. Errors: nothing provides a field that is read or wanted, unknown phase, a
  * cycle (named). Warns of what is wanted and never changes. */
 gamut_status schedule_plan(struct schedule *, struct fields *, size_t sets, struct trace *);
+/* Whether it sets or changes the field; whether several tasks may, each on top of the others. */
+bool access_writes(enum gamut_access);
+bool access_shares(enum gamut_access);
 
 size_t schedule_tasks(const struct schedule *);
 /* In order, then the dead. */

@@ -36,12 +36,25 @@ static gamut_status run_task(const struct task *task, const struct gamut_chunk *
   return status;
 }
 
+/* What the task is the first to share in this step. */
+static void start_shared(const struct task *task, const struct gamut_chunk *chunk, bool early)
+{
+  for (size_t c = 0; c < task->clears; c++) {
+    const struct clear *clear = &task->clear[c];
+    const bool due = clear->early == early && clear->on_set[chunk->set->index];
+    double *to = due ? chunk->end[clear->component] : NULL;
+    for (size_t i = 0; to && i < chunk->count; i++)
+      to[i] = clear->start;
+  }
+}
+
 static gamut_status run_tasks(struct task *const *task, size_t tasks,
                               const struct gamut_chunk *chunk)
 {
   for (size_t i = 0; i < tasks; i++) {
     if (!task_on_set(task[i], chunk->set->index))
       continue;
+    start_shared(task[i], chunk, false);
     gamut_status status = run_task(task[i], chunk);
     if (status != GAMUT_OK)
       return status;
@@ -66,6 +79,8 @@ static gamut_status sweep_block(const struct sweep *sweep, const struct step_con
   for (size_t slot = first; slot < end; slot += context->chunk) {
     size_t count = end - slot < context->chunk ? end - slot : context->chunk;
     scratch_bind(scratch, set, source, context->uniform, slot, count, &chunk);
+    for (size_t i = 0; i < sweep->chunks; i++)
+      start_shared(sweep->chunk[i], &chunk, true);
     TRY(run_tasks(sweep->chunk, sweep->chunks, &chunk));
     scratch_commit(scratch, source, &chunk);
   }

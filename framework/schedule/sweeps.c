@@ -44,7 +44,8 @@ static gamut_status form_sweeps(struct schedule *schedule, struct trace *trace)
 
 /* How one sweep touches a field on one set (SIZE_MAX: on any). */
 struct touch {
-  bool any, writes, adds, reads, reads_stored;
+  bool any, writes, scales, reads_stored;
+  bool needed; /* by more than who reads it only where somebody writes it */
 };
 
 static void touch_by(const struct task *task, const struct field *field, struct touch *touch)
@@ -54,9 +55,9 @@ static void touch_by(const struct task *task, const struct field *field, struct 
       continue;
     enum gamut_access access = task->use[u].access;
     touch->any = true;
-    touch->writes |= access == GAMUT_WRITE;
-    touch->adds |= access == GAMUT_ADD;
-    touch->reads |= access_reads(access);
+    touch->writes |= access_writes(access);
+    touch->scales |= access == GAMUT_SCALE || access == GAMUT_LEAST;
+    touch->needed |= !task->use[u].optional;
     touch->reads_stored |= access == GAMUT_READ_BEGIN || access == GAMUT_READ_LAST;
   }
 }
@@ -90,8 +91,9 @@ static void decide_storage(const struct schedule *schedule, struct field *field)
   for (size_t s = 0; s < schedule->sweeps; s++) {
     struct touch touch = touch_of(&schedule->sweep[s], field, SIZE_MAX);
     touching += touch.any;
-    writes |= touch.writes || touch.adds;
-    stored |= touch.reads_stored || (touch.any && schedule->sweep[s].once);
+    writes |= touch.writes;
+    /* one that is not zero where nobody changes it has an array that says so */
+    stored |= touch.scales || touch.reads_stored || (touch.any && schedule->sweep[s].once);
   }
   field->used = touching > 0 || wanted(schedule, field);
   field->history = field->history && writes;
@@ -99,19 +101,12 @@ static void decide_storage(const struct schedule *schedule, struct field *field)
                   (field->history || stored || touching > 1 || wanted(schedule, field));
 }
 
-static bool written_somewhere(const struct schedule *schedule, const struct field *field)
+/* On one set, or with SIZE_MAX on any. */
+static bool written(const struct schedule *schedule, const struct field *field, size_t set)
 {
   for (size_t i = 0; i < schedule->tasks; i++)
-    if (schedule->task[i]->live && task_writes(schedule->task[i], field))
-      return true;
-  return false;
-}
-
-static bool added_before(const struct schedule *schedule, size_t sweep, const struct field *field,
-                         size_t set)
-{
-  for (size_t s = 0; s < sweep; s++)
-    if (touch_of(&schedule->sweep[s], field, set).adds)
+    if (schedule->task[i]->live && task_writes(schedule->task[i], field) &&
+        (set == SIZE_MAX || task_on_set(schedule->task[i], set)))
       return true;
   return false;
 }
@@ -124,17 +119,15 @@ static enum source source_of(const struct schedule *schedule, size_t sweep,
   struct touch touch = touch_of(&schedule->sweep[sweep], field, set);
   if (field->where != GAMUT_AT_POINT || !touch.any)
     return SOURCE_NONE;
-  bool writes = touch.writes || touch.adds;
+  if (!touch.needed && field->given == GIVEN_BY_NOBODY && !written(schedule, field, set))
+    return SOURCE_NONE; /* absent on this set, whatever others have */
   if (field->history)
-    return writes ? SOURCE_FRESH : SOURCE_ARRAY;
+    return touch.writes ? SOURCE_FRESH : SOURCE_ARRAY;
   if (field->stored)
-    return touch.adds && !added_before(schedule, sweep, field, set) ? SOURCE_ARRAY_CLEARED
-                                                                    : SOURCE_ARRAY;
-  if (touch.adds)
-    return SOURCE_CLEARED;
+    return SOURCE_ARRAY;
   if (touch.writes)
     return SOURCE_SCRATCH;
-  return written_somewhere(schedule, field) ? SOURCE_ZERO : SOURCE_NONE;
+  return written(schedule, field, SIZE_MAX) ? SOURCE_ZERO : SOURCE_NONE;
 }
 
 gamut_status plan_sweeps(struct schedule *schedule, struct fields *fields, size_t sets,

@@ -292,6 +292,56 @@ static void test_identity(void)
   }
 }
 
+static void refused_whole(const char *head, const char *rest, const char *expected)
+{
+  char text[4096], words[8192];
+  snprintf(text, sizeof text, "%sversion: \"1\"\nsummary: a sample\n%s", head, rest);
+  struct descriptor *descriptor = read_sample(text, words, sizeof words);
+  if (!tap_ok(!descriptor && strstr(words, expected), "refused: %s", expected))
+    printf("# %s\n", words);
+  descriptor_free(descriptor);
+}
+
+static void refused_eos(const char *rest, const char *expected)
+{
+  refused_whole("plugin: eos/sample\noutputs: [pressure, sound_speed]\n", rest, expected);
+}
+
+static void refused_effect(const char *rest, const char *expected)
+{
+  refused_whole("plugin: effect/sample\n", rest, expected);
+}
+
+/* What optional inputs read where nobody gives them, and who may change what several may. */
+static void test_absent(void)
+{
+  char words[8192];
+  struct descriptor *d = read_sample(
+      "plugin: eos/sample\nversion: \"1\"\nsummary: a sample\noutputs: [pressure, sound_speed]\n"
+      "inputs: [compression, energy?, burn?: {unit: 1, absent: 1},"
+      " wear?: {unit: Pa, absent: 2 MPa}, limit?: {unit: Pa, absent: inf}, flow_stress_factor?, opening_tension?]\n",
+      words, sizeof words);
+  const double due[] = {0.0, 0.0, 1.0, 2e6, HUGE_VAL, 1.0, HUGE_VAL};
+  tap_ok(d && d->inputs == 7, "seven inputs%s%s", d ? "" : ": ", d ? "" : words);
+  for (size_t i = 0; d && i < d->inputs; i++)
+    tap_ok(d->input[i].absent == due[i], "%s is %g where absent", d->input[i].name,
+           d->input[i].absent);
+  descriptor_free(d);
+  refused_eos("inputs: [burn: {unit: 1, absent: 1}]\n", "is never absent");
+  refused_eos("inputs: [burn?: {unit: Pa, absent: 1 m}]\n", "'1 m' is no quantity in Pa");
+  refused_eos("inputs: [time_step?: {absent: 1}]\n", "has a value in every scene");
+  refused_effect("outputs: [flow_stress_factor]\n"
+                 "tasks: [{kernel: k, phase: a, writes: [flow_stress_factor]}]\n",
+                 "scales: [flow_stress_factor]");
+  refused_effect("outputs: [opening_tension]\n"
+                 "tasks: [{kernel: k, phase: a, scales: [opening_tension]}]\n",
+                 "lowers: [opening_tension]");
+  refused_effect("state: {wear: {unit: 1, doc: a}}\n"
+                 "tasks: [{kernel: k, phase: a, scales: [wear]}]\n",
+                 "is a state of this plugin");
+  refused_effect("tasks: [{kernel: k, phase: a, reads: []}]\n", "this task changes nothing");
+}
+
 int main(void)
 {
   char why[256];
@@ -306,6 +356,7 @@ int main(void)
   test_derivatives();
   test_refused();
   test_identity();
+  test_absent();
   rmdir(folder);
   units_free(units);
   return tap_done();

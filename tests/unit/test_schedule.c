@@ -137,6 +137,79 @@ static void test_read_of_what_comes_later(void)
   unmake(&plan);
 }
 
+/* Two effects scale one field after the material, which reads what the step before left. */
+static void test_shared(void)
+{
+  struct plan plan = make();
+  size_t index;
+  add(&plan, "material", "material", GAMUT_PER_CHUNK, true,
+      USES({"heat", GAMUT_READ_IF}, {"stress", GAMUT_WRITE}));
+  add(&plan, "one", "after", GAMUT_PER_CHUNK, false, USES({"heat", GAMUT_SCALE}));
+  add(&plan, "two", "after", GAMUT_PER_CHUNK, false, USES({"heat", GAMUT_SCALE}));
+  tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_OK,
+         "two tasks scale one field");
+  const struct task *task = task_called(&plan, "one", &index);
+  tap_ok(task->live && task->clears == 1 && task->clear[0].start == 1.0 &&
+             task->clear[0].on_set[0],
+         "the first one starts it at 1");
+  tap_ok(task_called(&plan, "two", &index)->clears == 0, "the second one does not");
+  const struct field *heat = fields_find(plan.fields, "heat");
+  tap_ok(heat->stored && heat->initial == 1.0, "it is stored, and 1 before the first step");
+  unmake(&plan);
+  plan = make();
+  add(&plan, "add", "after", GAMUT_PER_CHUNK, true, USES({"heat", GAMUT_ADD}));
+  add(&plan, "scale", "after", GAMUT_PER_CHUNK, true, USES({"heat", GAMUT_SCALE}));
+  tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_SCENE,
+         "one that adds and one that scales do not go together");
+  unmake(&plan);
+  plan = make();
+  add(&plan, "early", "gather", GAMUT_PER_CHUNK, true, USES({"heat", GAMUT_LEAST}));
+  add(&plan, "late", "after", GAMUT_PER_CHUNK, true, USES({"heat", GAMUT_LEAST}));
+  add(&plan, "material", "material", GAMUT_PER_CHUNK, true, USES({"heat", GAMUT_READ_IF}));
+  tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_SCENE,
+         "nor do such that work before and after it is read");
+  const struct gamut_use least = {"heat", GAMUT_LEAST};
+  const struct gamut_task once = {.name = "once", .phase = "after", .extent = GAMUT_ONCE,
+                                  .uses = &least, .use_count = 1, .run = nothing};
+  tap_ok(schedule_add(plan.schedule, "test", NULL, &once, plan.fields, SIZE_MAX, NULL,
+                      plan.trace) == GAMUT_PLUGIN,
+         "a task that sees no points cannot lower what they have");
+  unmake(&plan);
+}
+
+/* On two sets; an effect writes on the first only. */
+static void test_absent(void)
+{
+  struct plan plan = make();
+  static const bool on_set[] = {true, false};
+  const struct gamut_use write = {"heat", GAMUT_WRITE};
+  const struct gamut_task effect = {.name = "effect", .phase = "gather", .uses = &write,
+                                    .use_count = 1, .essential = true, .run = nothing};
+  schedule_add(plan.schedule, "test", NULL, &effect, plan.fields, SIZE_MAX, on_set, plan.trace);
+  add(&plan, "material", "material", GAMUT_PER_CHUNK, true, USES({"heat", GAMUT_READ_IF}));
+  schedule_plan(plan.schedule, plan.fields, 2, plan.trace);
+  const struct sweep *sweep = schedule_sweep(plan.schedule, 0);
+  const size_t heat = fields_find(plan.fields, "heat")->handle.first;
+  tap_ok(sweep->source[heat] == SOURCE_SCRATCH, "what an effect writes is there");
+  tap_ok(sweep->source[fields_components(plan.fields) + heat] == SOURCE_NONE,
+         "and absent on the set on which it does not");
+  unmake(&plan);
+}
+
+static void test_offers(void)
+{
+  struct plan plan = make();
+  static const struct gamut_use offers[] = {{"heat", GAMUT_WRITE}, {"unheard_of", GAMUT_READ_IF}};
+  size_t index;
+  add(&plan, "material", "material", GAMUT_PER_CHUNK, true, USES({"stress", GAMUT_WRITE}));
+  schedule_offer(plan.schedule, offers, 2);
+  schedule_want(plan.schedule, fields_find(plan.fields, "heat"), SIZE_MAX, "outputs", NULL, false);
+  tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_OK &&
+             task_called(&plan, "material", &index)->uses == 2,
+         "an offer is taken where its field is there");
+  unmake(&plan);
+}
+
 static void test_faults(void)
 {
   struct plan plan = make();
@@ -163,6 +236,9 @@ int main(void)
   test_live_and_order();
   test_wanted();
   test_read_of_what_comes_later();
+  test_shared();
+  test_absent();
+  test_offers();
   test_faults();
   return tap_done();
 }

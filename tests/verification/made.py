@@ -1,6 +1,7 @@
 """Builds plugins for tests, as a stranger would: with a compiler and the public headers."""
 import os
 import shlex
+import shutil
 import subprocess
 
 import scenes
@@ -26,3 +27,24 @@ def plugin(identity, described, source):
                     os.path.join(home, name + ".so"), os.path.join(home, name + ".c"), "-lm"],
                    check=True)
     return FOLDER
+
+
+def of_tree(identity):
+    """Builds the test plugin tests/plugins/kind/name with all that stands beside it."""
+    source = os.path.join(scenes.TREE, "tests/plugins", identity)
+    name = os.path.basename(identity)
+    with open(os.path.join(source, name + ".yaml"), encoding="utf-8") as described, \
+            open(os.path.join(source, name + ".c"), encoding="utf-8") as code:
+        folder = plugin(identity, described.read(), code.read())
+    for beside in os.listdir(source):
+        if not beside.endswith((".c", name + ".yaml")):
+            shutil.copy(os.path.join(source, beside), os.path.join(folder, identity, beside))
+    return folder
+
+
+def verified(identity):
+    """One line of TAP: the plugin passes `gamut verify`."""
+    done = subprocess.run([scenes.GAMUT, "verify", os.path.join(FOLDER, identity)],
+                          stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    failed = [line for line in done.stdout.splitlines() if line.startswith(("not ok", "#"))]
+    scenes.report(done.returncode == 0, f"{identity} passes gamut verify", [done.stderr, *failed])

@@ -84,8 +84,15 @@ enum gamut_access {
   GAMUT_READ_IF,    /* as GAMUT_READ, if somebody writes it; else the chunk's pointer is null */
   GAMUT_WRITE,      /* sets it */
   GAMUT_ADD,        /* adds to it; the core clears it before the first task that adds */
-  GAMUT_READ_LAST   /* the value that the step before left (a stored field without history) */
+  GAMUT_READ_LAST,  /* the value that the step before left (a stored field without history) */
+  GAMUT_SCALE,      /* multiplies it; the core sets it to 1 before the first task that scales */
+  GAMUT_LEAST       /* lowers it to the lesser of two numbers; the core sets it to infinity before
+                       the first task that lowers */
 };
+/* GAMUT_ADD, GAMUT_SCALE and GAMUT_LEAST are shared: several tasks may change one field in a step,
+ * all by the same access, and only tasks GAMUT_PER_CHUNK. They work in the order of the phases, in
+ * one phase in the order of the scene's effects. So a product or sum of two has the same bits in
+ * either order, of three or more those of the scene's order; the least has them in any. */
 struct gamut_use {
   const char *field;
   enum gamut_access access;
