@@ -7,7 +7,8 @@
 
 static void prove_sign(struct proof *proof, struct block *block, kernel_function function)
 {
-  double least = INFINITY;
+  double least = INFINITY, stiffness = 0;
+  const size_t factor = slot_named(proof, SLOT_OUTPUT, "shear_modulus_factor");
   size_t slot = slot_named(proof, SLOT_OUTPUT, "flow_stress");
   check_begin(&proof->checks, "flow stress");
   if (!check_that(&proof->checks, slot != SIZE_MAX, "flow_stress is among the outputs"))
@@ -19,9 +20,13 @@ static void prove_sign(struct proof *proof, struct block *block, kernel_function
     for (size_t i = 0; i < BLOCK_POINTS; i++)
       if (status_severity(bench_status(block->bench)[i]) < GAMUT_STOP)
         least = fmin(least, block->array[slot][i]);
+    for (size_t i = 0; factor != SIZE_MAX && i < BLOCK_POINTS; i++)
+      if (status_severity(bench_status(block->bench)[i]) < GAMUT_STOP)
+        stiffness = fmin(stiffness, block->array[factor][i]);
   }
   check_figure(&proof->checks, isfinite(least) ? fmax(-least, 0) : 0, 0,
                "flow stress below zero, Pa");
+  check_figure(&proof->checks, fmax(-stiffness, 0), 0, "shear_modulus_factor below zero");
 }
 
 /* From strain to stress and back, where the law hardens. */

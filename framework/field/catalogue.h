@@ -40,6 +40,7 @@
   X(flow_stress_slope_plastic_strain_rate, GAMUT_AT_POINT, 1, "Pa s",                              \
     "d(flow stress)/d(plastic strain rate)")                                                       \
   X(flow_stress_slope_temperature, GAMUT_AT_POINT, 1, "Pa/K", "d(flow stress)/d(temperature)")     \
+  X(shear_modulus_factor, GAMUT_AT_POINT, 1, "1", "what is left of the shear modulus")             \
   X(reference_density, GAMUT_AT_MATERIAL, 1, "kg/m3", "density at zero compression, rho0")         \
   X(time, GAMUT_AT_RUN, 1, "s", "at the beginning of the step")                                    \
   X(time_step, GAMUT_AT_RUN, 1, "s", "length of the step")                                         \

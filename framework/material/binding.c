@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/array.h"
+#include "base/array.h"
 #include "field/catalogue.h"
 #include "material/material_private.h"
 #include "registry/guard.h"
@@ -10,10 +11,11 @@
 /* Arguments of a law are set by its caller; only other inputs come from fields. */
 static bool is_argument(int role, const char *name)
 {
-  static const char *const strength[] = {"plastic_strain", "plastic_strain_rate", "temperature"};
+  static const char *const strength[] = {"plastic_strain", "plastic_strain_rate", "temperature",
+                                         "pressure", "compression"};
   static const char *const eos[] = {"compression", "energy"};
   const char *const *list = role == STRENGTH ? strength : eos;
-  size_t count = role == STRENGTH ? 3 : 2;
+  size_t count = role == STRENGTH ? ARRAY_SIZE(strength) : ARRAY_SIZE(eos);
   for (size_t i = 0; role != ELASTICITY && i < count; i++)
     if (strcmp(list[i], name) == 0)
       return true;
@@ -174,7 +176,7 @@ static gamut_status check_laws(const struct bound_material *bound, struct trace 
                            "%s needs an `%s:`, material '%s' has none", d->id, d->law[i].name,
                            m->name);
   }
-  return GAMUT_OK;
+  return bound->kernel[STRENGTH] ? strength_fits(m, d, trace) : GAMUT_OK;
 }
 
 gamut_status material_new(const struct material *material, struct registry *registry,

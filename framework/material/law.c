@@ -131,6 +131,9 @@ static void show_strength(struct law *law, double *unread, double *zero)
       .plastic_strain = row_or_spare(law, "plastic_strain", unread),
       .plastic_strain_rate = row_or_spare(law, "plastic_strain_rate", unread),
       .temperature = row_or_spare(law, "temperature", unread),
+      .pressure = law_row(law, "pressure"),
+      .compression = law_row(law, "compression"),
+      .shear_modulus_factor = law_row(law, "shear_modulus_factor"),
       .flow_stress = row_or_spare(law, "flow_stress", zero),
       .flow_stress_slope_plastic_strain =
           row_or_spare(law, "flow_stress_slope_plastic_strain", zero),
@@ -243,6 +246,44 @@ void law_free(struct law *law, struct arena *arena)
   arena_give(arena, law->row);
   arena_give(arena, law->scaled);
   arena_give(arena, law);
+}
+
+static bool reads(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->inputs; i++)
+    if (strcmp(d->input[i].name, name) == 0)
+      return !d->input[i].optional;
+  return false;
+}
+
+static bool gives(const struct descriptor *d, const char *name)
+{
+  for (size_t i = 0; i < d->outputs; i++)
+    if (strcmp(d->output[i].name, name) == 0)
+      return true;
+  return false;
+}
+
+gamut_status strength_fits(const struct material *material, const struct descriptor *caller,
+                           struct trace *trace)
+{
+  const struct descriptor *d = material->strength.descriptor;
+  const struct tree *node = material->strength.node ? material->strength.node : material->node;
+  const bool pressed = reads(d, "pressure") || reads(d, "compression");
+  const bool stiffened = gives(d, "shear_modulus_factor");
+  if (pressed && !descriptor_provides(caller, "strength_pressure"))
+    return trace_fail_at(trace, GAMUT_SCENE, node ? &node->place : NULL, NULL,
+                         "another strength, or who calls it by elasticity/hypoelastic",
+                         "%s of material '%s' reads the pressure or the compression, which %s does "
+                         "not give it: it does not provide 'strength_pressure'",
+                         d->id, material->name, caller->id);
+  if (stiffened && !descriptor_provides(caller, "shear_modulus_factor"))
+    return trace_fail_at(trace, GAMUT_SCENE, node ? &node->place : NULL, NULL,
+                         "another strength, or who calls it by elasticity/hypoelastic",
+                         "%s of material '%s' changes the shear modulus, which %s does not take "
+                         "up: it does not provide 'shear_modulus_factor'",
+                         d->id, material->name, caller->id);
+  return GAMUT_OK;
 }
 
 void law_begin(struct law *law, size_t count)

@@ -27,6 +27,9 @@ gamut_status law_new(const struct kernel *, struct arena *, size_t rows, struct 
 void law_free(struct law *, struct arena *);
 /* Row of a slot by its name, or null. */
 double *law_row(const struct law *, const char *name);
+/* Whether who calls the material's strength gives it all that it reads, and takes what it gives. */
+gamut_status strength_fits(const struct material *, const struct descriptor *caller,
+                           struct trace *);
 /* How many points the next evaluations have, and their statuses cleared. */
 void law_begin(struct law *, size_t count);
 /* Zeros in all rows, as when it was new. */

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "material/law.h"
 #include "run/host.h"
 
 struct gamut_law {
@@ -49,6 +50,8 @@ gamut_status host_law(struct gamut_run *run, const struct gamut_body *body, cons
     return trace_fail_at(run->trace, GAMUT_SCENE, material->node ? &material->node->place : NULL,
                          kind, NULL, "%s needs the %s of material '%s', which has none",
                          run->scene->solver.descriptor->id, kind, material->name);
+  if (instance == &material->strength)
+    TRY(strength_fits(material, run->scene->solver.descriptor, run->trace));
   TRY(kernel_new(instance, run->registry, run->arena, GAMUT_LANES, material->extra,
                  material->density, run->trace, &law->kernel));
   TRY(kernel_try(law->kernel, run->trace));

@@ -319,7 +319,8 @@ static void test_absent(void)
   struct descriptor *d = read_sample(
       "plugin: eos/sample\nversion: \"1\"\nsummary: a sample\noutputs: [pressure, sound_speed]\n"
       "inputs: [compression, energy?, burn?: {unit: 1, absent: 1},"
-      " wear?: {unit: Pa, absent: 2 MPa}, limit?: {unit: Pa, absent: inf}, flow_stress_factor?, opening_tension?]\n",
+      " wear?: {unit: Pa, absent: 2 MPa},"
+      " limit?: {unit: Pa, absent: inf}, flow_stress_factor?, opening_tension?]\n",
       words, sizeof words);
   const double due[] = {0.0, 0.0, 1.0, 2e6, HUGE_VAL, 1.0, HUGE_VAL};
   tap_ok(d && d->inputs == 7, "seven inputs%s%s", d ? "" : ": ", d ? "" : words);

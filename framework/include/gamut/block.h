@@ -61,10 +61,14 @@ struct gamut_strength_law {
   double *plastic_strain;      /* argument: equivalent plastic strain, 1 */
   double *plastic_strain_rate; /* argument: its rate, 1/s */
   double *temperature;         /* argument: K */
+  double *pressure;    /* argument: of the eos, without viscous pressure, Pa; null: not read */
+  double *compression; /* argument: rho/rho0 - 1 at the end of the step; null: not read */
   double *flow_stress;                           /* result: Pa, never negative */
   double *flow_stress_slope_plastic_strain;      /* result: Pa; zero if the law declares none */
   double *flow_stress_slope_plastic_strain_rate; /* result: Pa s; zero if the law declares none */
   double *flow_stress_slope_temperature;         /* result: Pa/K; zero if the law declares none */
+  double *shear_modulus_factor; /* result: what the shear modulus is multiplied by, never negative;
+                                   null: the law leaves it as it is */
 };
 
 struct gamut_eos_law {

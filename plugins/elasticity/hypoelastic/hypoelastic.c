@@ -2,6 +2,8 @@
 
 static void stress(const struct hypoelastic *b)
 {
+  hypoelastic_volume(b);
+  hypoelastic_strength(b);
   hypoelastic_trial(b);
   hypoelastic_return(b);
   hypoelastic_turn(b);

@@ -23,6 +23,7 @@ enum scratch {
   ACTIVE,       /* 1 while the point still iterates */
   OUTSIDE,      /* 1 where Newton's step left the bracket */
   ENERGY_KNOWN, /* energy without the work of the end pressure */
+  SHEAR,        /* shear modulus of the step, where the strength changes it */
   SCRATCH_USED
 };
 
@@ -36,6 +37,17 @@ GAMUT_INLINE double choose(double mask, double one, double other)
   return mask * one + (1.0 - mask) * other;
 }
 
+/* One value a step: that of its begin, at the pressure and compression of its end. */
+GAMUT_INLINE const double *hypoelastic_shear(const struct hypoelastic *b)
+{
+  const bool changed = b->strength && b->strength->shear_modulus_factor;
+  return changed ? b->scratch[SHEAR] : b->shear_modulus;
+}
+
+/* The volume at the end of the step; before all else. */
+void hypoelastic_volume(const struct hypoelastic *);
+/* The strength without flow: what yields, and the shear modulus; before the trial. */
+void hypoelastic_strength(const struct hypoelastic *);
 void hypoelastic_trial(const struct hypoelastic *);
 void hypoelastic_return(const struct hypoelastic *);
 void hypoelastic_turn(const struct hypoelastic *);

@@ -122,7 +122,7 @@ GAMUT_INLINE void put(const struct hypoelastic *b, size_t i, struct symmetric s)
   b->scratch[TRIAL + 5][i] = s.zx;
 }
 
-static void volume(const struct hypoelastic *b)
+void hypoelastic_volume(const struct hypoelastic *b)
 {
   GAMUT_EACH (i, b) {
     double change = volume_change(gradient_step(b, i)), J = b->volume_ratio_begin[i];
@@ -138,7 +138,7 @@ static void volume(const struct hypoelastic *b)
 
 void hypoelastic_trial(const struct hypoelastic *b)
 {
-  volume(b);
+  const double *shear = hypoelastic_shear(b);
   GAMUT_EACH (i, b) {
     double determinant;
     struct full h = at_middle(gradient_step(b, i), &determinant);
@@ -151,7 +151,7 @@ void hypoelastic_trial(const struct hypoelastic *b)
     tx *= f, ty *= f, tz *= f;
     struct symmetric s = rotated(deviator_begin(b, i), tx, ty, tz);
     b->scratch[WORK_BEGIN][i] = twice_contracted(s, e);
-    double twice = 2.0 * b->shear_modulus[i];
+    double twice = 2.0 * shear[i];
     s.xx += twice * e.xx, s.yy += twice * e.yy, s.zz += twice * e.zz;
     s.xy += twice * e.xy, s.yz += twice * e.yz, s.zx += twice * e.zx;
     b->scratch[WORK_TRIAL][i] = twice_contracted(s, e);

@@ -56,7 +56,7 @@ static void iterate(const struct hypoelastic *b)
 GAMUT_INLINE double longitudinal(const struct hypoelastic *b, size_t i, double J)
 {
   double bulk = b->eos->sound_speed[i];
-  return sqrt(bulk * bulk + (4.0 / 3.0) * b->shear_modulus[i] * J / b->reference_density[i]);
+  return sqrt(bulk * bulk + (4.0 / 3.0) * hypoelastic_shear(b)[i] * J / b->reference_density[i]);
 }
 
 void hypoelastic_pressure(const struct hypoelastic *b)
@@ -89,7 +89,12 @@ void hypoelastic_start(const struct hypoelastic *b)
 {
   GAMUT_EACH (i, b) {
     double J = b->volume_ratio_begin[i];
-    b->eos->compression[i] = (1.0 - J) / J;
+    b->scratch[COMPRESSION][i] = (1.0 - J) / J;
+  }
+  if (b->strength && b->strength->shear_modulus_factor)
+    hypoelastic_strength(b);
+  GAMUT_EACH (i, b) {
+    b->eos->compression[i] = b->scratch[COMPRESSION][i];
     b->eos->energy[i] = b->energy_begin[i];
   }
   gamut_evaluate_eos(b->eos, NULL, b->count);

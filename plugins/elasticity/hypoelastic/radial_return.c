@@ -28,9 +28,10 @@ static void propose(const struct hypoelastic *b, double *increment)
 /* From the flow stress without flow: which points yield, and where each starts. */
 static void begin(const struct hypoelastic *b)
 {
+  const double *shear = hypoelastic_shear(b);
   GAMUT_EACH (i, b) {
     double s = b->scratch[TRIAL_SIZE][i], flow = b->strength->flow_stress[i];
-    double excess = s - flow, stiffness = 3.0 * b->shear_modulus[i];
+    double excess = s - flow, stiffness = 3.0 * shear[i];
     double divisor = stiffness > 0.0 ? stiffness : 1.0;
     double active = excess > 0.0 ? stiffness > 0.0 ? 1.0 : 0.0 : 0.0;
     /* Steady flow takes the whole strain; the increment is never more than the excess asks for
@@ -51,10 +52,11 @@ static void begin(const struct hypoelastic *b)
 /* One Newton step for the points that iterate; marks those whose step leaves the bracket. */
 static void newton(const struct hypoelastic *b)
 {
+  const double *shear = hypoelastic_shear(b);
   const struct gamut_strength_law *law = b->strength;
   GAMUT_EACH (i, b) {
     double d = b->scratch[INCREMENT][i], active = b->scratch[ACTIVE][i], dt = b->time_step[i];
-    double stiffness = 3.0 * b->shear_modulus[i], flow = law->flow_stress[i];
+    double stiffness = 3.0 * shear[i], flow = law->flow_stress[i];
     double by_rate = law->flow_stress_slope_plastic_strain_rate[i];
     double hardening = law->flow_stress_slope_plastic_strain[i] + (dt > 0.0 ? by_rate / dt : 0.0);
     double slope = stiffness + hardening, excess = b->scratch[EXCESS][i];
@@ -97,7 +99,7 @@ GAMUT_INLINE void rescue_point(const struct hypoelastic *b, size_t i, double bis
   const struct gamut_strength_law *law = b->strength;
   double d = b->scratch[INCREMENT][i], dt = b->time_step[i];
   double lower = b->scratch[LOWER][i], upper = b->scratch[UPPER][i];
-  double stiffness = 3.0 * b->shear_modulus[i], excess = b->scratch[EXCESS][i];
+  double stiffness = 3.0 * hypoelastic_shear(b)[i], excess = b->scratch[EXCESS][i];
   double taken = excess - (b->scratch[TRIAL_SIZE][i] - stiffness * d - law->flow_stress[i]);
   double by_rate = law->flow_stress_slope_plastic_strain_rate[i];
   double slope =
@@ -197,12 +199,41 @@ static void remain_elastic(const struct hypoelastic *b)
   }
 }
 
+/* The pressure of the eos at the end's compression and the begin's energy: the mean stress holds
+ * viscous pressure and is a step late. */
+static void put_pressure(const struct hypoelastic *b)
+{
+  const struct gamut_strength_law *law = b->strength;
+  GAMUT_EACH (i, b) {
+    b->eos->compression[i] = b->scratch[COMPRESSION][i];
+    b->eos->energy[i] = b->energy_begin[i];
+  }
+  gamut_evaluate_eos(b->eos, NULL, b->count);
+  GAMUT_EACH (i, b)
+    law->pressure[i] = b->eos->pressure[i];
+}
+
+void hypoelastic_strength(const struct hypoelastic *b)
+{
+  const struct gamut_strength_law *law = b->strength;
+  remain_elastic(b);
+  if (!law)
+    return;
+  if (law->pressure)
+    put_pressure(b);
+  if (law->compression)
+    GAMUT_EACH (i, b)
+      law->compression[i] = b->scratch[COMPRESSION][i];
+  propose(b, b->scratch[INCREMENT]);
+  gamut_evaluate_strength(law, NULL, b->count);
+  if (law->shear_modulus_factor)
+    GAMUT_EACH (i, b)
+      b->scratch[SHEAR][i] = b->shear_modulus[i] * law->shear_modulus_factor[i];
+}
+
 void hypoelastic_return(const struct hypoelastic *b)
 {
-  remain_elastic(b);
   if (b->strength) {
-    propose(b, b->scratch[INCREMENT]);
-    gamut_evaluate_strength(b->strength, NULL, b->count);
     begin(b);
     iterate(b);
   }
