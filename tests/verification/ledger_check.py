@@ -16,11 +16,10 @@ parameters:
   amount: {unit: 1, doc: how much in each step}
   after: {type: integer, unit: 1, default: 0, doc: from which step on}
 inputs: [mass]
-outputs: [external_force]
 """
 CODE = """#include "thief.gamut.h"
 struct accomplice {
-  struct gamut_run *run; double *line, amount; long after; struct gamut_field force;
+  struct gamut_run *run; double *line, amount; long after;
 };
 static gamut_status book(void *self, const struct gamut_chunk *chunk)
 {
@@ -32,7 +31,7 @@ static gamut_status book(void *self, const struct gamut_chunk *chunk)
 }
 static gamut_status create(struct gamut_run *run, const struct gamut_values *values, void **self)
 {
-  static const struct gamut_use uses[] = {{"external_force", GAMUT_ADD}};
+  static const struct gamut_use uses[] = {{"mass", GAMUT_READ}};
   struct accomplice *t = gamut_allocate(run, "thief", sizeof *t);
   if (!t)
     return GAMUT_INTERNAL;

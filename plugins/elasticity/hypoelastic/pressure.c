@@ -53,16 +53,17 @@ static void iterate(const struct hypoelastic *b)
   }
 }
 
-GAMUT_INLINE double longitudinal(const struct hypoelastic *b, size_t i, double J)
+GAMUT_INLINE double longitudinal(const struct hypoelastic *b, size_t i, double shear, double J)
 {
   double bulk = b->eos->sound_speed[i];
-  return sqrt(bulk * bulk + (4.0 / 3.0) * hypoelastic_shear(b)[i] * J / b->reference_density[i]);
+  return sqrt(bulk * bulk + (4.0 / 3.0) * shear * J / b->reference_density[i]);
 }
 
 void hypoelastic_pressure(const struct hypoelastic *b)
 {
   begin(b);
   iterate(b);
+  const double *shear = hypoelastic_shear(b);
   GAMUT_EACH (i, b) {
     double p = b->eos->pressure[i], total = p + b->viscous_pressure[i];
     /* From the work once more: energy and work then balance to the last bit. */
@@ -77,7 +78,7 @@ void hypoelastic_pressure(const struct hypoelastic *b)
     b->stress[3][i] = xy;
     b->stress[4][i] = yz;
     b->stress[5][i] = zx;
-    b->sound_speed[i] = longitudinal(b, i, b->volume_ratio[i]);
+    b->sound_speed[i] = longitudinal(b, i, shear[i], b->volume_ratio[i]);
     double sum =
         fabs(xx) + fabs(yy) + fabs(zz) + fabs(xy) + fabs(yz) + fabs(zx) + fabs(total) + fabs(e);
     GAMUT_FLAG(b, i, b->scratch[ACTIVE][i] > 0.0, HYPOELASTIC_ENERGY_FAILED);
@@ -98,6 +99,7 @@ void hypoelastic_start(const struct hypoelastic *b)
     b->eos->energy[i] = b->energy_begin[i];
   }
   gamut_evaluate_eos(b->eos, NULL, b->count);
+  const double *shear = hypoelastic_shear(b);
   GAMUT_EACH (i, b) {
     double p = b->eos->pressure[i], J = b->volume_ratio_begin[i];
     b->stress[0][i] = b->stress[1][i] = b->stress[2][i] = -p;
@@ -107,7 +109,7 @@ void hypoelastic_start(const struct hypoelastic *b)
     b->energy[i] = b->energy_begin[i];
     b->plastic_strain_rate[i] = 0.0;
     b->plastic_dissipation[i] = 0.0;
-    b->sound_speed[i] = longitudinal(b, i, J);
+    b->sound_speed[i] = longitudinal(b, i, shear[i], J);
     GAMUT_FLAG(b, i, !(J > 0.0), HYPOELASTIC_INVERTED);
     GAMUT_FLAG(b, i, !(fabs(p) < HUGE_VAL), HYPOELASTIC_NOT_FINITE);
   }

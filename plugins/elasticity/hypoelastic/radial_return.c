@@ -94,12 +94,13 @@ static void newton(const struct hypoelastic *b)
 /* Where Newton's step left the bracket: the excess taken up by an increment, 3 G d + y(d) - y(0),
  * is near a power of d, exactly so for plastic strain 0 and y = A + B d^n. If that fails,
  * bisection. */
-GAMUT_INLINE void rescue_point(const struct hypoelastic *b, size_t i, double bisect)
+GAMUT_INLINE void rescue_point(const struct hypoelastic *b, double shear, size_t i,
+                               double bisect)
 {
   const struct gamut_strength_law *law = b->strength;
   double d = b->scratch[INCREMENT][i], dt = b->time_step[i];
   double lower = b->scratch[LOWER][i], upper = b->scratch[UPPER][i];
-  double stiffness = 3.0 * hypoelastic_shear(b)[i], excess = b->scratch[EXCESS][i];
+  double stiffness = 3.0 * shear, excess = b->scratch[EXCESS][i];
   double taken = excess - (b->scratch[TRIAL_SIZE][i] - stiffness * d - law->flow_stress[i]);
   double by_rate = law->flow_stress_slope_plastic_strain_rate[i];
   double slope =
@@ -119,6 +120,7 @@ GAMUT_INLINE void rescue_point(const struct hypoelastic *b, size_t i, double bis
 /* Few points need it: whole vectors without one are passed over. */
 static void rescue(const struct hypoelastic *b, double bisect)
 {
+  const double *shear = hypoelastic_shear(b);
   for (size_t from = 0; from < b->count; from += GAMUT_LANES) {
     const double *outside = b->scratch[OUTSIDE] + from;
     const size_t count = b->count - from < GAMUT_LANES ? b->count - from : GAMUT_LANES;
@@ -129,12 +131,12 @@ static void rescue(const struct hypoelastic *b, double bisect)
       continue;
     if (count < GAMUT_LANES) {
       for (size_t l = 0; l < count; l++)
-        rescue_point(b, from + l, bisect);
+        rescue_point(b, shear[from + l], from + l, bisect);
       continue;
     }
 #pragma omp simd
     for (size_t l = 0; l < GAMUT_LANES; l++)
-      rescue_point(b, from + l, bisect);
+      rescue_point(b, shear[from + l], from + l, bisect);
   }
 }
 
