@@ -212,6 +212,13 @@ def sort_of(parameter):
         return " or ".join(f"`{c}`" for c in parameter["choices"])
     if kind == "vector":
         return f"{size_of(parameter)} numbers" + ("" if unit == "1" else f" in {unit}")
+    if kind in ("list", "map"):
+        of = parameter["of"]
+        return f"{kind} of {size_of(parameter)}: {sort_of(of)}"
+    if kind == "entry":
+        return f"name of one of `{parameter['of']}`"
+    if kind == "one of":
+        return "; or ".join(sort_of(form) for form in parameter["forms"].values())
     if kind == "table":
         return "table of " + ", ".join(f"{k} ({u})" for k, u in parameter["columns"].items())
     return {"integer": "whole number", "group": "mapping", "body": "name of a body"}.get(kind, kind)
@@ -229,8 +236,24 @@ def parameter_rows(parameters, given=(), prefix=""):
     for name, p in parameters.items():
         yield (f"`{prefix}{name}`", sort_of(p), need_of(p, name in given), range_of(p),
                p.get("doc", "") + (" (may be random)" if p["random"] else ""))
-        if p["type"] == "group":
-            yield from parameter_rows(p["members"], (), f"{prefix}{name}.")
+        yield from rows_below(p, f"{prefix}{name}.")
+
+
+def rows_below(parameter, prefix):
+    """Members of a group, of the entries of a list or map, of the form that is a group."""
+    if parameter["type"] == "group":
+        members = parameter["members"]
+        yield from parameter_rows(members, alternatives(parameter, members), prefix)
+    elif parameter["type"] in ("list", "map"):
+        yield from rows_below(parameter["of"], prefix + "*.")
+    elif parameter["type"] == "one of":
+        for form in parameter["forms"].values():
+            yield from rows_below(form, prefix)
+
+
+def alternatives(group, members):
+    return {name for names in group.get("one_of", ()) for name in names
+            if not members[name]["optional"]}
 
 
 def family(row):
@@ -273,6 +296,7 @@ def argument_text(measure):
 def plugin(p):
     print(f"### {p['plugin']}\n\n{p['summary'][0].upper() + p['summary'][1:]}.\n")
     given = {n for s in p["given"] for n in list(s["set"]) + list(s["then"])}
+    given |= alternatives(p, p["parameters"])
     parameters("", p["parameters"], given)
     if len(p["given"]) > 1:
         print("Give one of: " + "; ".join(", ".join(f"`{n}`" for n in s["set"])

@@ -121,7 +121,7 @@ static void text_parameters(const struct evaluation *e, FILE *file)
   const struct values *values = e->specimen.values;
   for (size_t i = 0; i < values->count; i++) {
     const struct value *value = &values->value[i];
-    if (!value->present || value->parameter->type == VALUE_GROUP)
+    if (!value->present || value->group)
       continue;
     fprintf(file, "  %-24s ", value->parameter->name);
     if (value->text)

@@ -13,7 +13,13 @@
  *     types: real (default), integer, boolean, choice (choices: [..]), text, vector (size: 2 or
  *     "1..3"), body (name of a body), expression (variables: [x, y, z]), table (columns: {time: s,
  *     strain: 1}; a sequence of rows or {file: NAME.csv}; of two columns also one number, which is
- *     the row [0, number]), group (members: like parameters), levels (of an estimator: a mapping of
+ *     the row [0, number]), group (members: like parameters), list (of: a parameter's declaration;
+ *     size: "0..8"; entries in brackets, those that are texts may be one without), map (of:, size:;
+ *     entries by names that the scene gives), entry (of: name of a map among the plugin's
+ *     parameters; an entry of it by name; arguments of measures only), one of (forms: like
+ *     parameters; a value written in one of these ways, told apart by its form: words of choices
+ *     and booleans first, else a plain value, a list or a mapping, at most one form of each),
+ *     levels (of an estimator: a mapping of
  *     scene paths to lists of values, what a study varies; the choice `combine` beside it says how:
  *     grid, every value with every other, or zip, side by side), plugin (kind: random_field; a
  *     plugin of that kind with its parameters, {model: NAME, ...}).
@@ -22,6 +28,9 @@
  *     outside `fit`, where the law holds, warned. `usual` is the spread of published values: beyond
  *     it most often a unit is wrong, and the warning says which would be right. It is of the
  *     magnitude where numbers may be negative and its lower end is positive; zero is never unusual.
+ *     Beside the members of a group `one_of: [factor, [slope, start]]` lists alternatives: a scene
+ *     gives the members of one. It need not where they are optional in all of the alternatives.
+ *   one_of: [limit, [lower, upper]]    the same of the parameters
  *   constraints: ["T_melt > T_room"]   comparisons over real parameters
  *   needs: {shear_modulus: "(0, inf)"} strength, eos: ranges in SI of what its caller has of that
  *                                      name. A strength needs this one unless it says other ones,
@@ -94,7 +103,8 @@
 
 enum value_type {
   VALUE_REAL, VALUE_INTEGER, VALUE_BOOLEAN, VALUE_CHOICE, VALUE_TEXT, VALUE_VECTOR, VALUE_BODY,
-  VALUE_EXPRESSION, VALUE_TABLE, VALUE_LEVELS, VALUE_PLUGIN, VALUE_GROUP
+  VALUE_EXPRESSION, VALUE_TABLE, VALUE_LEVELS, VALUE_PLUGIN, VALUE_LIST, VALUE_MAP, VALUE_ENTRY,
+  VALUE_ONE_OF, VALUE_GROUP /* the last */
 };
 
 /* A range with open or closed ends, SI. */
@@ -107,6 +117,9 @@ bool range_holds(const struct range *, double value);
 /* "greater than 0 and at most 0.5" with the unit, for messages. Returns buffer. */
 char *range_text(const struct range *, const char *unit, char *buffer, size_t size);
 
+/* Members of which a scene gives those of one set; `needed`: it must. 0 sets: no such thing. */
+struct alternatives { size_t sets; bool needed; };
+
 struct parameter {
   const char *name, *symbol, *unit, *doc, *source;
   enum value_type type;
@@ -115,12 +128,16 @@ struct parameter {
   bool optional, random;
   bool elsewhere; /* not for the law's kernels: a solver reads it */
   struct range fit, physical, usual;
-  size_t size_min, size_max;   /* of a vector */
+  size_t size_min, size_max;   /* of a vector; entries of a list or map */
   const char **choice;         /* names of a choice, variables of an expression, table columns */
   const char **choice_unit;    /* units of table columns */
   size_t choices;
-  struct parameter *member;    /* of a group */
+  struct parameter *member;    /* of a group; forms of a `one of` */
   size_t members;
+  struct alternatives one_of;  /* of a group */
+  unsigned set;                /* the alternative, from 1, of its group that it is in; 0: none */
+  struct parameter *of;        /* what each entry of a list or map is */
+  const char *entry_of;        /* of an entry: the map */
   enum gamut_kind kind;        /* of a plugin */
 };
 
@@ -161,6 +178,7 @@ struct descriptor {
   const char *file, *folder; /* absolute */
   const char **source;                 size_t sources;
   struct parameter *parameter;         size_t parameters;
+  struct alternatives one_of;
   const char **constraint;             size_t constraints;
   struct need *need;                   size_t needs;
   struct need *usual;                  size_t usuals;  /* of the material's keys */
@@ -198,6 +216,12 @@ bool kind_from_name(const char *name, enum gamut_kind *);
 /* Names of the operations of a kind, as they stand in struct NAME_ops; null past the end. */
 const char *kind_operation(enum gamut_kind, size_t index);
 const struct parameter *parameter_named(const struct parameter *, size_t count, const char *name);
+/* How its value may be written: bits 1 << enum tree_kind. */
+unsigned parameter_forms(const struct parameter *);
+/* Whether all texts are known that it may be: a choice or a boolean. */
+bool parameter_is_word(const struct parameter *);
+/* The sets of alternatives: "factor, or slope with start". Returns buffer. */
+char *alternatives_text(const struct parameter *, size_t count, char *buffer, size_t size);
 /* Index of a parameter of the descriptor, or -1. */
 int descriptor_parameter(const struct descriptor *, const char *name);
 /* A kind of space, which a solver offers as a choice of its parameter `geometry`; null: unknown. */

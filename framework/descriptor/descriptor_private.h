@@ -61,8 +61,19 @@ size_t arithmetic_names(struct reader *, const char ***names);
 bool check_expression(struct reader *, const struct tree *, const char *text,
                       const char *const *names, size_t count);
 
+/* What a declaration declares: only arguments of measures may take a unit from a field or name an
+ * entry; arguments and entries need no `doc`. */
+enum declared { DECLARED_PARAMETER, DECLARED_ARGUMENT, DECLARED_ENTRY };
+void read_parameter(struct reader *, const struct tree *, enum declared, struct parameter *);
+/* Parameters that hold others. */
+void read_entries(struct reader *, const struct tree *, struct parameter *);
+void read_forms(struct reader *, const struct tree *, struct parameter *);
+void read_one_of(struct reader *, const struct tree *list, struct parameter *, size_t count,
+                 struct alternatives *);
+void check_entry_of(struct reader *, const struct tree *, const struct parameter *argument);
+
 /* Each reads one section of the file. */
-size_t read_parameters(struct reader *, const struct tree *, bool documented, struct parameter **);
+size_t read_parameters(struct reader *, const struct tree *, enum declared, struct parameter **);
 void read_fields(struct reader *, const struct tree *root);   /* inputs, outputs, state, laws ... */
 void read_rules(struct reader *, const struct tree *root);    /* constraints, given, variants */
 void read_messages(struct reader *, const struct tree *root); /* messages, tasks */

@@ -147,11 +147,11 @@ static void put_choices(FILE *file, const struct descriptor *d, const struct sta
     char prefix[256], path[256];
     if (p->type == VALUE_CHOICE)
       put_choice(file, d, stand, p);
-    if (p->type != VALUE_GROUP)
-      continue;
     snprintf(prefix, sizeof prefix, "%s%s_", stand->prefix, p->name);
     snprintf(path, sizeof path, "%s%s.", stand->path, p->name);
     put_choices(file, d, &(struct stand){prefix, path}, p->member, p->members);
+    if (p->of) /* asked for in the values of an entry */
+      put_choices(file, d, &(struct stand){prefix, ""}, p->of->member, p->of->members);
   }
 }
 

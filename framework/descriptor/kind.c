@@ -47,7 +47,9 @@ const char *value_type_name(enum value_type type)
       [VALUE_TEXT] = "text",       [VALUE_VECTOR] = "vector",
       [VALUE_BODY] = "body",       [VALUE_EXPRESSION] = "expression",
       [VALUE_TABLE] = "table",     [VALUE_LEVELS] = "levels",
-      [VALUE_PLUGIN] = "plugin",   [VALUE_GROUP] = "group",
+      [VALUE_PLUGIN] = "plugin",   [VALUE_LIST] = "list",
+      [VALUE_MAP] = "map",         [VALUE_ENTRY] = "entry",
+      [VALUE_ONE_OF] = "one of",   [VALUE_GROUP] = "group",
   };
   return (size_t)type < ARRAY_SIZE(name) ? name[type] : NULL;
 }

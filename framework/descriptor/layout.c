@@ -168,9 +168,11 @@ static uint64_t digest_choices(uint64_t digest, const struct parameter *paramete
       digest = digest_text(digest, parameter[i].name);
     for (size_t k = 0; parameter[i].type == VALUE_CHOICE && k < parameter[i].choices; k++)
       digest = digest_text(digest, parameter[i].choice[k]);
-    if (parameter[i].type == VALUE_GROUP)
+    if (parameter[i].members)
       digest = digest_choices(digest_text(digest, parameter[i].name), parameter[i].member,
                               parameter[i].members);
+    if (parameter[i].of)
+      digest = digest_choices(digest, parameter[i].of, 1);
   }
   return digest;
 }

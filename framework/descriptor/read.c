@@ -26,6 +26,7 @@ static const struct {
     {"notes", EVERY},
     {"source", EVERY},
     {"parameters", EVERY},
+    {"one_of", EVERY},
     {"constraints", EVERY},
     {"given", EVERY},
     {"needs", LAWS},
@@ -207,11 +208,13 @@ static void read_all(struct reader *reader, const struct tree *root, const char 
   d->formula = read_text(reader, root, "formula", false);
   d->notes = read_text(reader, root, "notes", false);
   d->source = read_texts(reader, tree_get(root, "source"), "source", &d->sources);
-  d->parameters = read_parameters(reader, tree_get(root, "parameters"), true, &d->parameter);
-  d->body_parameters =
-      read_parameters(reader, tree_get(root, "body_parameters"), true, &d->body_parameter);
-  d->material_parameters =
-      read_parameters(reader, tree_get(root, "material_parameters"), true, &d->material_parameter);
+  d->parameters =
+      read_parameters(reader, tree_get(root, "parameters"), DECLARED_PARAMETER, &d->parameter);
+  d->body_parameters = read_parameters(reader, tree_get(root, "body_parameters"),
+                                       DECLARED_PARAMETER, &d->body_parameter);
+  d->material_parameters = read_parameters(reader, tree_get(root, "material_parameters"),
+                                           DECLARED_PARAMETER, &d->material_parameter);
+  read_one_of(reader, tree_get(root, "one_of"), d->parameter, d->parameters, &d->one_of);
   check_names(reader, root, "material_parameters", d->material_parameter, d->material_parameters);
   read_fields(reader, root);
   read_rules(reader, root);

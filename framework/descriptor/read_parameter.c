@@ -9,7 +9,9 @@
 enum {
   ALL = (1U << (VALUE_GROUP + 1)) - 1,
   NUMBERS = BIT(VALUE_REAL) | BIT(VALUE_VECTOR),
-  RANGED = NUMBERS | BIT(VALUE_INTEGER)
+  RANGED = NUMBERS | BIT(VALUE_INTEGER),
+  ENTRIES = BIT(VALUE_LIST) | BIT(VALUE_MAP),
+  HOLDERS = ENTRIES | BIT(VALUE_ONE_OF)
 };
 
 /* Which key has a meaning for which types. */
@@ -22,7 +24,7 @@ static const struct {
     {"source", ALL},
     {"symbol", ALL},
     {"optional", ALL},
-    {"default", ALL & ~(BIT(VALUE_GROUP) | BIT(VALUE_PLUGIN))},
+    {"default", ALL & ~(BIT(VALUE_GROUP) | BIT(VALUE_PLUGIN) | HOLDERS | BIT(VALUE_ENTRY))},
     {"unit", RANGED | BIT(VALUE_EXPRESSION)},
     {"unit_of", BIT(VALUE_REAL)},
     {"fit", RANGED},
@@ -30,11 +32,14 @@ static const struct {
     {"physical", RANGED},
     {"random", BIT(VALUE_REAL)},
     {"elsewhere", BIT(VALUE_REAL)},
-    {"size", BIT(VALUE_VECTOR)},
+    {"size", BIT(VALUE_VECTOR) | ENTRIES},
     {"choices", BIT(VALUE_CHOICE)},
     {"variables", BIT(VALUE_EXPRESSION)},
     {"columns", BIT(VALUE_TABLE)},
     {"members", BIT(VALUE_GROUP)},
+    {"one_of", BIT(VALUE_GROUP)},
+    {"of", ENTRIES | BIT(VALUE_ENTRY)},
+    {"forms", BIT(VALUE_ONE_OF)},
     {"kind", BIT(VALUE_PLUGIN)},
 };
 
@@ -87,11 +92,15 @@ static void read_range(struct reader *reader, const struct tree *node, const cha
   }
 }
 
-/* "3" or "1..3" */
+/* "3" or "1..3"; of a list or map, which need say nothing, also "0..3". */
 static void read_size(struct reader *reader, const struct tree *node, struct parameter *parameter)
 {
-  const char *text = read_text(reader, node, "size", true);
-  parameter->size_min = parameter->size_max = 1;
+  enum { COMPONENTS_MAX = 1000, ENTRIES_MAX = 10000 };
+  const bool vector = parameter->type == VALUE_VECTOR;
+  const long least = vector ? 1 : 0, most = vector ? COMPONENTS_MAX : ENTRIES_MAX;
+  const char *text = read_text(reader, node, "size", vector);
+  parameter->size_min = (size_t)least;
+  parameter->size_max = vector ? 1 : ENTRIES_MAX;
   if (!text)
     return;
   char *after;
@@ -102,10 +111,10 @@ static void read_size(struct reader *reader, const struct tree *node, struct par
     high = strtol(next, &after, 10);
     good = after != next;
   }
-  if (!good || *after || low < 1 || high < low || high > 1000) {
+  if (!good || *after || low < least || high < low || high > most) {
     reader_error_at_value(reader, tree_get(node, "size"),
-                          "a number such as 3, or a span such as 1..3",
-                          "'%s' is no size of a vector", text);
+                          "a number such as 3, or a span such as 1..3", "'%s' is no size of a %s",
+                          text, value_type_name(parameter->type));
     return;
   }
   parameter->size_min = (size_t)low;
@@ -219,6 +228,10 @@ static void check_default(struct reader *reader, const struct parameter *paramet
   case VALUE_TABLE:
   case VALUE_LEVELS:
   case VALUE_PLUGIN:
+  case VALUE_LIST:
+  case VALUE_MAP:
+  case VALUE_ENTRY:
+  case VALUE_ONE_OF:
   case VALUE_GROUP:
     return;
   }
@@ -259,7 +272,20 @@ static void read_by_type(struct reader *reader, const struct tree *node,
     if (!tree_get(node, "members"))
       reader_error_at_key(reader, node, NULL, "group '%s' has no members", parameter->name);
     parameter->members =
-        read_parameters(reader, tree_get(node, "members"), true, &parameter->member);
+        read_parameters(reader, tree_get(node, "members"), DECLARED_PARAMETER, &parameter->member);
+    read_one_of(reader, tree_get(node, "one_of"), parameter->member, parameter->members,
+                &parameter->one_of);
+    break;
+  case VALUE_LIST:
+  case VALUE_MAP:
+    read_size(reader, node, parameter);
+    read_entries(reader, node, parameter);
+    break;
+  case VALUE_ENTRY:
+    parameter->entry_of = read_text(reader, node, "of", true);
+    break;
+  case VALUE_ONE_OF:
+    read_forms(reader, node, parameter);
     break;
   default:
     break;
@@ -281,8 +307,8 @@ static const char *read_unit_of(struct reader *reader, const struct tree *node, 
   return read_text(reader, node, "unit_of", false);
 }
 
-static void read_parameter(struct reader *reader, const struct tree *node, bool documented,
-                           struct parameter *parameter)
+void read_parameter(struct reader *reader, const struct tree *node, enum declared declared,
+                    struct parameter *parameter)
 {
   parameter->name = node->key;
   check_name(reader, node, true, node->key);
@@ -292,18 +318,20 @@ static void read_parameter(struct reader *reader, const struct tree *node, bool 
     return;
   }
   enum value_type type = parameter->type = read_type(reader, node);
+  if (type == VALUE_ENTRY && declared != DECLARED_ARGUMENT)
+    reader_error_at_value(reader, tree_get(node, "type"), NULL,
+                          "only an argument of a measure names an entry");
   check_parameter_keys(reader, node, type);
   bool dimensional = (NUMBERS | BIT(VALUE_EXPRESSION)) & BIT(type);
   if (dimensional || type == VALUE_INTEGER)
-    parameter->unit =
-        read_unit(reader, node, "unit", dimensional && !tree_get(node, "unit_of"));
+    parameter->unit = read_unit(reader, node, "unit", dimensional && !tree_get(node, "unit_of"));
   if (type == VALUE_INTEGER && parameter->unit && strcmp(parameter->unit, "1") != 0)
     reader_error_at_value(reader, tree_get(node, "unit"), NULL, "an integer has no unit but 1");
   if (!parameter->unit && (dimensional || type == VALUE_INTEGER))
     parameter->unit = "1";
-  parameter->unit_of = read_unit_of(reader, node, !documented);
+  parameter->unit_of = read_unit_of(reader, node, declared == DECLARED_ARGUMENT);
   parameter->symbol = read_text(reader, node, "symbol", false);
-  parameter->doc = read_text(reader, node, "doc", documented);
+  parameter->doc = read_text(reader, node, "doc", declared == DECLARED_PARAMETER);
   parameter->source = read_text(reader, node, "source", false);
   parameter->optional = read_flag(reader, node, "optional", false);
   parameter->random = read_flag(reader, node, "random", false);
@@ -323,7 +351,7 @@ static void read_parameter(struct reader *reader, const struct tree *node, bool 
     check_default(reader, parameter);
 }
 
-size_t read_parameters(struct reader *reader, const struct tree *node, bool documented,
+size_t read_parameters(struct reader *reader, const struct tree *node, enum declared declared,
                        struct parameter **list)
 {
   *list = NULL;
@@ -337,6 +365,6 @@ size_t read_parameters(struct reader *reader, const struct tree *node, bool docu
   }
   *list = reader_keep(reader, node->children, sizeof **list);
   for (size_t i = 0; i < node->children; i++)
-    read_parameter(reader, node->child[i], documented, &(*list)[i]);
+    read_parameter(reader, node->child[i], declared, &(*list)[i]);
   return node->children;
 }

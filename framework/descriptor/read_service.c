@@ -69,8 +69,8 @@ static void check_unit_of(struct reader *reader, const struct tree *node,
 static void read_measure(struct reader *reader, const struct tree *node, const char *const *names,
                          size_t count, struct measure *measure)
 {
-  static const char *const keys[] = {"unit", "at", "formula", "doc", "arguments", "against",
-                                     "unit_of"};
+  static const char *const keys[] = {"unit",      "at",      "formula", "doc",
+                                     "arguments", "against", "unit_of"};
   static const char *const places[] = {"point", "body", "run"};
   measure->name = node->key;
   measure->unit = "1";
@@ -101,11 +101,13 @@ static void read_measure(struct reader *reader, const struct tree *node, const c
     reader_error_at_key(reader, node, "a formula, or the name of a field",
                         "measure '%s' at points has no formula", node->key);
   measure->arguments =
-      read_parameters(reader, tree_get(node, "arguments"), false, &measure->argument);
+      read_parameters(reader, tree_get(node, "arguments"), DECLARED_ARGUMENT, &measure->argument);
   check_unit_of(reader, node, measure, measure->unit_of);
-  for (size_t i = 0; i < measure->arguments; i++)
-    check_unit_of(reader, tree_get(node, "arguments")->child[i], measure,
-                  measure->argument[i].unit_of);
+  for (size_t i = 0; i < measure->arguments; i++) {
+    const struct tree *argument = tree_get(node, "arguments")->child[i];
+    check_unit_of(reader, argument, measure, measure->argument[i].unit_of);
+    check_entry_of(reader, argument, &measure->argument[i]);
+  }
 }
 
 /* The measure that is a curve's axis. */

@@ -54,15 +54,26 @@ static void put_value(FILE *file, const struct tree *value)
   fputc(mapping ? '}' : ']', file);
 }
 
-/* "real in Pa", "vector of 1 to 3 in m", "choice of linear, quadratic" */
+static void put_size(FILE *file, const struct parameter *parameter)
+{
+  fprintf(file, " of %zu", parameter->size_min);
+  if (parameter->size_max > parameter->size_min)
+    fprintf(file, " to %zu", parameter->size_max);
+}
+
+/* "real in Pa", "vector of 1 to 3 in m", "choice of linear, quadratic", "map of 1 to 3: group" */
 static void put_type(FILE *file, const struct parameter *parameter)
 {
   fputs(value_type_name(parameter->type), file);
-  if (parameter->type == VALUE_VECTOR) {
-    fprintf(file, " of %zu", parameter->size_min);
-    if (parameter->size_max > parameter->size_min)
-      fprintf(file, " to %zu", parameter->size_max);
+  if (parameter->type == VALUE_VECTOR || parameter->of)
+    put_size(file, parameter);
+  if (parameter->of) {
+    fputs(": ", file);
+    put_type(file, parameter->of);
+    return;
   }
+  if (parameter->type == VALUE_ENTRY)
+    fprintf(file, " of '%s'", parameter->entry_of);
   if (parameter->type == VALUE_PLUGIN)
     fprintf(file, " of kind %s", kind_name(parameter->kind));
   if (parameter->unit_of)
@@ -109,8 +120,19 @@ static void put_need(FILE *file, const struct descriptor *d, const struct parame
     fputs("; by one of the sets below", file);
   else if (parameter->optional)
     fputs("; optional", file);
+  else if (parameter->set)
+    fputs("; where it is chosen", file);
   else if (parameter->type != VALUE_GROUP)
     fputs("; required", file);
+}
+
+static void put_alternatives(FILE *file, const struct alternatives *one_of,
+                             const struct parameter *parameter, size_t count, const char *indent)
+{
+  char text[512];
+  if (one_of->sets)
+    fprintf(file, "%s%s of: %s\n", indent, one_of->needed ? "one" : "at most one",
+            alternatives_text(parameter, count, text, sizeof text));
 }
 
 static void put_parameters(FILE *file, const struct descriptor *d,
@@ -139,7 +161,9 @@ static void put_parameters(FILE *file, const struct descriptor *d,
     put_range(file, "usual", &p->usual, p->unit, indent);
     if (p->source)
       fprintf(file, "%ssource: %s\n", deeper, p->source);
-    put_parameters(file, NULL, p->member, p->members, deeper);
+    const struct parameter *inner = p->of ? p->of : p;
+    put_alternatives(file, &inner->one_of, inner->member, inner->members, deeper);
+    put_parameters(file, NULL, inner->member, inner->members, deeper);
   }
 }
 
@@ -149,6 +173,8 @@ static void put_parameter_section(FILE *file, const char *title, const struct de
   if (count == 0)
     return;
   fprintf(file, "\n%s\n", title);
+  if (d)
+    put_alternatives(file, &d->one_of, parameter, count, "  ");
   put_parameters(file, d, parameter, count, "  ");
 }
 

@@ -47,43 +47,70 @@ static void set_range(json_t *object, const char *key, const struct range *range
   json_object_set_new(object, key, value);
 }
 
+/* Lists of the members of each alternative. */
+static void set_alternatives(json_t *object, const struct alternatives *one_of,
+                             const struct parameter *member, size_t count)
+{
+  if (!one_of->sets)
+    return;
+  json_t *list = json_array();
+  for (size_t set = 1; set <= one_of->sets; set++) {
+    json_t *names = json_array();
+    for (size_t i = 0; i < count; i++)
+      if (member[i].set == set)
+        json_array_append_new(names, json_string(member[i].name));
+    json_array_append_new(list, names);
+  }
+  json_object_set_new(object, "one_of", list);
+}
+
+static json_t *parameters(const struct parameter *, size_t count);
+
+static json_t *declared(const struct parameter *p)
+{
+  json_t *value = json_object();
+  set_text(value, "type", value_type_name(p->type));
+  set_text(value, "symbol", p->symbol);
+  set_text(value, "unit", p->unit_of ? NULL : p->unit);
+  set_text(value, "unit_of", p->unit_of);
+  set_text(value, "doc", p->doc);
+  set_text(value, "source", p->source);
+  if (p->standard)
+    json_object_set_new(value, "default", value_of(p->standard));
+  json_object_set_new(value, "optional", json_boolean(p->optional));
+  json_object_set_new(value, "random", json_boolean(p->random));
+  set_range(value, "fit", &p->fit);
+  set_range(value, "physical", &p->physical);
+  set_range(value, "usual", &p->usual);
+  if (p->type == VALUE_VECTOR || p->of)
+    json_object_set_new(value, "size", json_pack("[i, i]", (int)p->size_min, (int)p->size_max));
+  if (p->type == VALUE_CHOICE)
+    json_object_set_new(value, "choices", texts(p->choice, p->choices));
+  if (p->type == VALUE_EXPRESSION)
+    json_object_set_new(value, "variables", texts(p->choice, p->choices));
+  if (p->type == VALUE_TABLE) {
+    json_t *columns = json_object();
+    for (size_t k = 0; k < p->choices; k++)
+      set_text(columns, p->choice[k], p->choice_unit[k]);
+    json_object_set_new(value, "columns", columns);
+  }
+  if (p->type == VALUE_PLUGIN)
+    set_text(value, "kind", kind_name(p->kind));
+  if (p->members)
+    json_object_set_new(value, p->type == VALUE_ONE_OF ? "forms" : "members",
+                        parameters(p->member, p->members));
+  set_alternatives(value, &p->one_of, p->member, p->members);
+  if (p->of)
+    json_object_set_new(value, "of", declared(p->of));
+  set_text(value, "of", p->entry_of);
+  return value;
+}
+
 static json_t *parameters(const struct parameter *parameter, size_t count)
 {
   json_t *list = json_object();
-  for (size_t i = 0; i < count; i++) {
-    const struct parameter *p = &parameter[i];
-    json_t *value = json_object();
-    set_text(value, "type", value_type_name(p->type));
-    set_text(value, "symbol", p->symbol);
-    set_text(value, "unit", p->unit_of ? NULL : p->unit);
-    set_text(value, "unit_of", p->unit_of);
-    set_text(value, "doc", p->doc);
-    set_text(value, "source", p->source);
-    if (p->standard)
-      json_object_set_new(value, "default", value_of(p->standard));
-    json_object_set_new(value, "optional", json_boolean(p->optional));
-    json_object_set_new(value, "random", json_boolean(p->random));
-    set_range(value, "fit", &p->fit);
-    set_range(value, "physical", &p->physical);
-    set_range(value, "usual", &p->usual);
-    if (p->type == VALUE_VECTOR)
-      json_object_set_new(value, "size", json_pack("[i, i]", (int)p->size_min, (int)p->size_max));
-    if (p->type == VALUE_CHOICE)
-      json_object_set_new(value, "choices", texts(p->choice, p->choices));
-    if (p->type == VALUE_EXPRESSION)
-      json_object_set_new(value, "variables", texts(p->choice, p->choices));
-    if (p->type == VALUE_TABLE) {
-      json_t *columns = json_object();
-      for (size_t k = 0; k < p->choices; k++)
-        set_text(columns, p->choice[k], p->choice_unit[k]);
-      json_object_set_new(value, "columns", columns);
-    }
-    if (p->type == VALUE_PLUGIN)
-      set_text(value, "kind", kind_name(p->kind));
-    if (p->type == VALUE_GROUP)
-      json_object_set_new(value, "members", parameters(p->member, p->members));
-    json_object_set_new(list, p->name, value);
-  }
+  for (size_t i = 0; i < count; i++)
+    json_object_set_new(list, parameter[i].name, declared(&parameter[i]));
   return list;
 }
 
@@ -95,8 +122,8 @@ static json_t *uses(const struct field_use *use, size_t count)
     set_text(value, "name", use[i].name);
     json_object_set_new(value, "optional", json_boolean(use[i].optional));
     if (use[i].optional && use[i].components)
-      json_object_set_new(value, "absent", isfinite(use[i].absent) ? json_real(use[i].absent)
-                                                                   : json_string("inf"));
+      json_object_set_new(value, "absent",
+                          isfinite(use[i].absent) ? json_real(use[i].absent) : json_string("inf"));
     set_text(value, "unit", use[i].unit);
     if (use[i].components)
       json_object_set_new(value, "components", json_integer(use[i].components));
@@ -226,6 +253,7 @@ void descriptor_show_json(const struct descriptor *d, FILE *file)
   json_object_set_new(object, "material_parameters",
                       parameters(d->material_parameter, d->material_parameters));
   json_object_set_new(object, "body_parameters", parameters(d->body_parameter, d->body_parameters));
+  set_alternatives(object, &d->one_of, d->parameter, d->parameters);
   json_object_set_new(object, "constraints", texts(d->constraint, d->constraints));
   json_t *needs = json_object();
   for (size_t i = 0; i < d->needs; i++)

@@ -9,7 +9,8 @@
 /* Values: the same for every host. */
 #define HOST_OF_VALUES                                                                             \
   .given = host_given, .real = host_real, .integer = host_integer, .boolean = host_boolean,        \
-  .text = host_text, .vector = host_vector, .table = host_table
+  .text = host_text, .vector = host_vector, .table = host_table, .entries = host_entries,          \
+  .entry_name = host_entry_name, .entry = host_entry
 /* Gives values and the groups below them their host; accepts null. */
 void host_of_values(struct gamut_values *, const struct gamut_host *);
 
@@ -32,6 +33,9 @@ gamut_status host_formula(struct gamut_run *, const struct gamut_values *, const
 double host_formula_value(const struct gamut_formula *, int thread, const double *variable);
 bool host_formula_uses(const struct gamut_formula *, size_t variable);
 const double *host_table(const struct gamut_values *, const char *path, size_t *rows);
+size_t host_entries(const struct gamut_values *, const char *path);
+const char *host_entry_name(const struct gamut_values *, const char *path, size_t index);
+const struct gamut_values *host_entry(const struct gamut_values *, const char *path, size_t index);
 
 gamut_status host_law(struct gamut_run *, const struct gamut_body *, const char *kind, size_t count,
                       struct gamut_law **);

@@ -3,6 +3,14 @@
 #include "registry/guard.h"
 #include "run/host.h"
 
+static _Noreturn void end_of(const struct gamut_values *values, const char *path, const char *why)
+{
+  fprintf(stderr, "gamut: the plugin with the values '%s' asks for '%s', %s\n",
+          values->path ? values->path : "", path, why);
+  guard_finish();
+  exit(GAMUT_PLUGIN);
+}
+
 /* Asking for a value that the descriptor does not declare, or not with that type, is a fault of the
  * plugin that no scene can mend. */
 static const struct value *demand(const struct gamut_values *values, const char *path,
@@ -11,11 +19,9 @@ static const struct value *demand(const struct gamut_values *values, const char 
   const struct value *value = values_find(values, path);
   if (value && (types >> value->parameter->type & 1u))
     return value;
-  fprintf(stderr, "gamut: the plugin with the values '%s' asks for '%s', which its descriptor %s\n",
-          values->path ? values->path : "", path,
-          value ? "declares with another type" : "does not declare");
-  guard_finish();
-  exit(GAMUT_PLUGIN);
+  end_of(values, path,
+         value ? "which its descriptor declares with another type"
+               : "which its descriptor does not declare");
 }
 
 void host_of_values(struct gamut_values *values, const struct gamut_host *host)
@@ -55,8 +61,7 @@ const char *host_text(const struct gamut_values *values, const char *path)
   return demand(values, path, 1u << VALUE_TEXT | 1u << VALUE_CHOICE | 1u << VALUE_BODY)->text;
 }
 
-const double *host_vector(const struct gamut_values *values, const char *path,
-                                 size_t *count)
+const double *host_vector(const struct gamut_values *values, const char *path, size_t *count)
 {
   const struct value *value = demand(values, path, 1u << VALUE_VECTOR);
   *count = value->present ? value->numbers : 0;
@@ -66,9 +71,42 @@ const double *host_vector(const struct gamut_values *values, const char *path,
 const double *host_table(const struct gamut_values *values, const char *path, size_t *rows)
 {
   const struct value *value = demand(values, path, 1u << VALUE_TABLE);
-  *rows = value->present && value->parameter->choices ? value->numbers / value->parameter->choices
-                                                      : 0;
+  *rows =
+      value->present && value->parameter->choices ? value->numbers / value->parameter->choices : 0;
   return value->number;
+}
+
+static const struct gamut_values *entries_of(const struct gamut_values *values, const char *path)
+{
+  return demand(values, path, 1u << VALUE_LIST | 1u << VALUE_MAP)->group;
+}
+
+static const struct value *entry_at(const struct gamut_values *values, const char *path,
+                                    size_t index)
+{
+  const struct gamut_values *entries = entries_of(values, path);
+  if (index >= entries->count)
+    end_of(values, path, "an entry beyond the last");
+  return &entries->value[index];
+}
+
+size_t host_entries(const struct gamut_values *values, const char *path)
+{
+  return entries_of(values, path)->count;
+}
+
+const char *host_entry_name(const struct gamut_values *values, const char *path, size_t index)
+{
+  return entry_at(values, path, index)->parameter->name;
+}
+
+const struct gamut_values *host_entry(const struct gamut_values *values, const char *path,
+                                      size_t index)
+{
+  const struct value *entry = entry_at(values, path, index);
+  if (entry->parameter->type != VALUE_GROUP)
+    end_of(values, path, "entries of groups, which its descriptor declares as something else");
+  return entry->group;
 }
 
 /* A formula is the value that holds it, with one copy a thread. */
@@ -85,8 +123,8 @@ static bool copy_formula(struct value *value, size_t threads, char *why, size_t 
     return false;
   value->each = more;
   while (value->copies < threads) {
-    struct expression *copy = expression_new(text->text, value->parameter->choice,
-                                             value->parameter->choices, why, size);
+    struct expression *copy =
+        expression_new(text->text, value->parameter->choice, value->parameter->choices, why, size);
     if (!copy)
       return false;
     value->each[value->copies++] = copy;

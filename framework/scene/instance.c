@@ -104,17 +104,16 @@ void instance_read(struct scene_reader *reader, enum gamut_kind kind, const char
   snprintf(what, sizeof what, "%s '%s'", kind_name(kind), descriptor->name);
   tree_path(node, path, sizeof path);
   reader->here = node;
-  struct section section = {descriptor,
-                            descriptor->parameter,
-                            descriptor->parameters,
-                            node->kind == TREE_MAPPING ? node : NULL,
-                            path,
-                            what,
-                            known,
-                            others + 1,
-                            false,
-                            seen_by_kernels(descriptor),
-                            false};
+  struct section section = {.descriptor = descriptor,
+                            .parameter = descriptor->parameter,
+                            .count = descriptor->parameters,
+                            .node = node->kind == TREE_MAPPING ? node : NULL,
+                            .path = path,
+                            .what = what,
+                            .also = known,
+                            .others = others + 1,
+                            .pointwise = seen_by_kernels(descriptor),
+                            .one_of = &descriptor->one_of};
   instance->values = section_read(reader, &section);
   reader->here = here;
   free(known);

@@ -90,7 +90,8 @@ static void elasticity_default(struct scene_reader *reader, struct material *mat
                             .count = descriptor->parameters,
                             .path = path,
                             .what = what,
-                            .pointwise = true};
+                            .pointwise = true,
+                            .one_of = &descriptor->one_of};
   material->elasticity = (struct instance){.name = "elasticity", .descriptor = descriptor};
   material->elasticity.values = section_read(reader, &section);
   reader->here = NULL;

@@ -176,15 +176,31 @@ static const char *unit_named(struct scene_reader *reader, const struct tree *no
   return unit;
 }
 
+/* An argument that names an entry of a map becomes a choice of those that the scene has. */
+static void entries_as_choices(struct scene_reader *reader, const struct quantity *quantity,
+                               struct parameter *argument)
+{
+  const struct scene *scene = reader->scene;
+  const struct values *values = scene->solver.values;
+  if (quantity->effect)
+    values = scene->effect[tree_number(scene->effects_node, quantity->effect)].instance.values;
+  const struct value *map = values_find(values, argument->entry_of);
+  argument->type = VALUE_CHOICE;
+  argument->choices = map && map->group ? map->group->count : 0;
+  argument->choice = scene_keep(reader, argument->choices, sizeof *argument->choice);
+  for (size_t i = 0; i < argument->choices; i++)
+    argument->choice[i] = map->group->parameter[i].name;
+}
+
 /* A measure of a field that the scene names has the field's unit, and so have its arguments. Of a
  * field that nobody has the unit is left open; it is refused when the run is planned. */
-static void units_of_field(struct scene_reader *reader, const struct tree *node,
-                           struct quantity *quantity)
+static void measure_of_scene(struct scene_reader *reader, const struct tree *node,
+                             struct quantity *quantity)
 {
   const struct measure *measure = quantity->measure;
   bool any = measure->unit_of;
   for (size_t i = 0; i < measure->arguments; i++)
-    any |= measure->argument[i].unit_of != NULL;
+    any |= measure->argument[i].unit_of || measure->argument[i].type == VALUE_ENTRY;
   if (!any)
     return;
   struct measure *own = scene_keep(reader, 1, sizeof *own);
@@ -197,6 +213,8 @@ static void units_of_field(struct scene_reader *reader, const struct tree *node,
     *argument = measure->argument[i];
     unit = unit_named(reader, node, quantity, argument->unit_of);
     argument->unit = unit ? unit : argument->unit;
+    if (argument->type == VALUE_ENTRY)
+      entries_as_choices(reader, quantity, argument);
   }
   quantity->measure = own;
 }
@@ -228,7 +246,7 @@ static void quantity_read(struct scene_reader *reader, const struct tree *node,
       !effect_named(reader, tree_get(node, "effect"), &effect) ||
       !measure_find(reader, measure, effect, quantity))
     return;
-  units_of_field(reader, node, quantity);
+  measure_of_scene(reader, node, quantity);
   struct section section = {.parameter = quantity->measure->argument,
                             .count = quantity->measure->arguments,
                             .node = node,

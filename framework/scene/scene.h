@@ -56,7 +56,8 @@ struct value {
   struct expression *expression; /* EXPRESSION */
   struct expression **each;      /* copies of it, one a thread, for who asked for them */
   size_t copies;
-  struct gamut_values *group;     /* GROUP, never null for one; and of `model` */
+  struct gamut_values *group;     /* GROUP, LIST, MAP, ONE_OF, never null for one: of the members,
+                                     the entries by name or number, the forms; and of `model` */
   const struct descriptor *model; /* PLUGIN, or the field of a random REAL; else null */
   const struct tree *levels;      /* LEVELS: the mapping of paths to lists */
 };
@@ -70,6 +71,7 @@ struct gamut_values {
   size_t count;
   char *path;              /* scene path: "materials.copper.strength" */
   const struct tree *node; /* the mapping, or null */
+  struct parameter *own;   /* of a list or map: those that `parameter` points to; else null */
 };
 #define values gamut_values
 
@@ -181,10 +183,10 @@ struct quantity {
   const char *family; /* of one of several points: the name in the scene, "speed" of "speed.07" */
   const struct measure *measure;
   const struct descriptor *provider; /* whose measure it is; null: a plain field of the catalogue */
-  const char *effect;       /* key of the effect that provides it, or null */
-  const char *field;        /* plain field component, e.g. "velocity_y", or null */
-  struct values *arguments; /* may be null */
-  int body;                 /* index, or -1 */
+  const char *effect;                /* key of the effect that provides it, or null */
+  const char *field;                 /* plain field component, e.g. "velocity_y", or null */
+  struct values *arguments;          /* may be null */
+  int body;                          /* index, or -1 */
   bool has_point, follow_space;
   double point[3];
   double every; /* 0: about 500 samples */

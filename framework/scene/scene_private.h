@@ -45,10 +45,10 @@ struct scene_reader {
   const struct tree *bodies_node; /* their names as keys */
   unsigned axes;                  /* of the geometry; 0: the solver has none */
   bool axisymmetric;
-  bool scaled; /* of the material that is read */
+  bool scaled;           /* of the material that is read */
   bool geometry_unknown; /* no solver or geometry was understood: axes are unknown */
-  bool random; /* some value is random */
-  bool pointwise; /* what is read now may differ from point to point */
+  bool random;           /* some value is random */
+  bool pointwise;        /* what is read now may differ from point to point */
   size_t faults;
   gamut_status first; /* status of the first fault */
   struct neighbour neighbour[NEIGHBOURS_MAX];
@@ -58,7 +58,7 @@ struct scene_reader {
 };
 
 /* Zeroed memory. A scene takes little: where there is none left, the program ends. */
-void *scene_take(size_t count, size_t size);                   /* freed by its owner */
+void *scene_take(size_t count, size_t size);                        /* freed by its owner */
 void *scene_keep(struct scene_reader *, size_t count, size_t size); /* freed with the scene */
 char *scene_text(struct scene_reader *, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
@@ -197,9 +197,33 @@ struct section {
   bool lenient;   /* what is required may be absent */
   bool pointwise; /* kernels see its numbers, so they may differ from point to point */
   bool open;      /* its other keys are looked at elsewhere */
+  const struct alternatives *one_of; /* of its parameters; null: none */
 };
 /* Never null. */
 struct values *section_read(struct scene_reader *, const struct section *);
+/* Without values yet. */
+struct values *values_new(const struct parameter *, size_t count, const struct tree *,
+                          const char *path);
+/* The path of a part, "solver.cell"; `buffer` of PATH_SIZE, which is returned. */
+const char *path_below(const char *path, const char *name, char *buffer);
+/* One value of any type, below the path. False with a fault. */
+bool value_read(struct scene_reader *, const struct parameter *, const struct tree *,
+                const char *path, struct value *);
+/* Members of a group that is not given take their defaults; a lenient one asks for none. `what` it
+ * is called in messages. */
+bool group_read(struct scene_reader *, const struct parameter *, const struct tree *,
+                const char *path, const char *what, bool lenient, struct value *);
+/* value_nested.c; `node` null: no entries, no form. */
+bool entries_read(struct scene_reader *, const struct parameter *, const struct tree *,
+                  const char *path, struct value *);
+bool one_of_read(struct scene_reader *, const struct parameter *, const struct tree *,
+                 const char *path, struct value *);
+/* The number of the word that a choice or boolean is; false where the node is none of them. */
+bool word_known(const struct parameter *, const struct tree *, size_t *number);
+/* The alternative, from 1, that the mapping gives first; 0: none of them. */
+unsigned alternative_given(const struct section *);
+/* Members of two alternatives, or of none where one is needed, are faults. */
+void alternatives_check(struct scene_reader *, const struct section *, unsigned given);
 /* Whether some given set speaks of the parameter: then it is not required by itself. */
 bool given_set_names(const struct descriptor *, const char *name);
 /* The given set that the values belong to; null if none or `descriptor` has no sets. */

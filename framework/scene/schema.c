@@ -79,6 +79,49 @@ static json_t *table(const struct parameter *parameter)
 }
 
 static json_t *parameters_schema(const struct parameter *, size_t count, json_t *into);
+static json_t *parameter_schema(const struct parameter *);
+
+/* A word alone is a list of one. */
+static json_t *list_schema(const struct parameter *parameter)
+{
+  json_t *list = list_of(parameter_schema(parameter->of), parameter->size_min, parameter->size_max);
+  if (!(parameter_forms(parameter) >> TREE_SCALAR & 1U))
+    return list;
+  return json_pack("{s:[{s:s}, o]}", "anyOf", "type", "string", list);
+}
+
+static json_t *map_schema(const struct parameter *parameter)
+{
+  json_t *map = named(parameter_schema(parameter->of));
+  json_object_set_new(map, "minProperties", json_integer((json_int_t)parameter->size_min));
+  json_object_set_new(map, "maxProperties", json_integer((json_int_t)parameter->size_max));
+  return map;
+}
+
+static json_t *forms_schema(const struct parameter *parameter)
+{
+  json_t *forms = json_array();
+  for (size_t i = 0; i < parameter->members; i++)
+    json_array_append_new(forms, parameter_schema(&parameter->member[i]));
+  return json_pack("{s:o}", "anyOf", forms);
+}
+
+/* Members of one alternative do not stand beside those of another. */
+static json_t *group_schema(const struct parameter *group)
+{
+  json_t *schema = object(parameters_schema(group->member, group->members, NULL), true);
+  json_t *pairs = json_array();
+  for (size_t i = 0; i < group->members; i++)
+    for (size_t k = i + 1; k < group->members; k++)
+      if (group->member[i].set && group->member[k].set &&
+          group->member[i].set != group->member[k].set)
+        json_array_append_new(pairs, json_pack("{s:[s, s]}", "required", group->member[i].name,
+                                               group->member[k].name));
+  if (json_array_size(pairs))
+    json_object_set_new(schema, "not", json_pack("{s:O}", "anyOf", pairs));
+  json_decref(pairs);
+  return schema;
+}
 
 static json_t *bare_schema(const struct parameter *parameter)
 {
@@ -93,6 +136,7 @@ static json_t *bare_schema(const struct parameter *parameter)
     return json_pack("{s:o}", "enum", words(parameter->choice, parameter->choices));
   case VALUE_TEXT:
   case VALUE_BODY:
+  case VALUE_ENTRY:
     return json_pack("{s:s}", "type", "string");
   case VALUE_EXPRESSION:
     return json_pack("{s:[s, s]}", "type", "string", "number");
@@ -105,8 +149,14 @@ static json_t *bare_schema(const struct parameter *parameter)
     return named(json_pack("{s:s}", "type", "array"));
   case VALUE_PLUGIN:
     return reference(kind_name(parameter->kind));
+  case VALUE_LIST:
+    return list_schema(parameter);
+  case VALUE_MAP:
+    return map_schema(parameter);
+  case VALUE_ONE_OF:
+    return forms_schema(parameter);
   case VALUE_GROUP:
-    return object(parameters_schema(parameter->member, parameter->members, NULL), true);
+    return group_schema(parameter);
   }
   return json_object();
 }

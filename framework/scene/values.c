@@ -4,6 +4,18 @@
 
 #include "scene/scene_private.h"
 
+bool word_known(const struct parameter *parameter, const struct tree *node, size_t *number)
+{
+  static const char *const truth[] = {"false", "true", "off", "on", "no", "yes"};
+  const bool choice = parameter->type == VALUE_CHOICE;
+  const char *const *word = choice ? parameter->choice : truth;
+  const size_t count = choice ? parameter->choices : ARRAY_SIZE(truth);
+  for (*number = 0; *number < count && node->kind == TREE_SCALAR; ++*number)
+    if (strcmp(word[*number], node->text) == 0)
+      return true;
+  return false;
+}
+
 static bool choice_read(struct scene_reader *reader, const struct parameter *parameter,
                         const struct tree *node, struct value *value)
 {
@@ -15,12 +27,12 @@ static bool choice_read(struct scene_reader *reader, const struct parameter *par
                    node->kind == TREE_SEQUENCE ? "a list" : "a mapping");
     return false;
   }
-  for (size_t i = 0; i < parameter->choices; i++)
-    if (strcmp(parameter->choice[i], node->text) == 0) {
-      value->text = parameter->choice[i];
-      value->real = (double)i;
-      return true;
-    }
+  size_t number;
+  if (word_known(parameter, node, &number)) {
+    value->text = parameter->choice[number];
+    value->real = (double)number;
+    return true;
+  }
   error_at_value(
       reader, node,
       suggest(reader, node->text, parameter->choice, parameter->choices, expected, sizeof expected),
@@ -31,12 +43,11 @@ static bool choice_read(struct scene_reader *reader, const struct parameter *par
 static bool boolean_read(struct scene_reader *reader, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
-  static const char *const word[] = {"false", "true", "off", "on", "no", "yes"};
-  for (size_t i = 0; i < ARRAY_SIZE(word) && node->kind == TREE_SCALAR; i++)
-    if (strcmp(word[i], node->text) == 0) {
-      value->real = (double)(i % 2);
-      return true;
-    }
+  size_t number;
+  if (word_known(parameter, node, &number)) {
+    value->real = (double)(number % 2);
+    return true;
+  }
   error_at_value(reader, node, "true or false", "'%s' is neither true nor false", parameter->name);
   return false;
 }
@@ -110,30 +121,35 @@ static bool formula_read(struct scene_reader *reader, const struct parameter *pa
   return value->expression != NULL;
 }
 
-/* Members of a group that is not given take their defaults; a group that may be absent asks for
- * none. */
-static bool group_read(struct scene_reader *reader, const struct parameter *parameter,
-                       const struct tree *node, const char *path, bool lenient, struct value *value)
+const char *path_below(const char *path, const char *name, char *buffer)
 {
-  char below[PATH_SIZE], what[128];
+  snprintf(buffer, PATH_SIZE, "%s%s%s", path, path[0] ? "." : "", name);
+  return buffer;
+}
+
+bool group_read(struct scene_reader *reader, const struct parameter *parameter,
+                const struct tree *node, const char *path, const char *what, bool lenient,
+                struct value *value)
+{
+  char below[PATH_SIZE];
   size_t faults = reader->faults;
-  snprintf(below, sizeof below, "%s%s%s", path, path[0] ? "." : "", parameter->name);
-  snprintf(what, sizeof what, "'%s'", parameter->name);
   if (node && !expect_mapping(reader, node, what))
     node = NULL;
   struct section section = {.parameter = parameter->member,
                             .count = parameter->members,
                             .node = node,
-                            .path = below,
+                            .path = path_below(path, parameter->name, below),
                             .what = what,
-                            .lenient = lenient};
+                            .lenient = lenient,
+                            .one_of = &parameter->one_of};
   value->group = section_read(reader, &section);
   return reader->faults == faults;
 }
 
-static bool value_read(struct scene_reader *reader, const struct parameter *parameter,
-                       const struct tree *node, const char *path, struct value *value)
+bool value_read(struct scene_reader *reader, const struct parameter *parameter,
+                const struct tree *node, const char *path, struct value *value)
 {
+  char what[128];
   switch (parameter->type) {
   case VALUE_REAL:
     return real_read(reader, parameter, node, value);
@@ -142,6 +158,7 @@ static bool value_read(struct scene_reader *reader, const struct parameter *para
   case VALUE_BOOLEAN:
     return boolean_read(reader, parameter, node, value);
   case VALUE_CHOICE:
+  case VALUE_ENTRY: /* of the scene's map: those that read it have made a choice of it */
     return choice_read(reader, parameter, node, value);
   case VALUE_TEXT:
     value->text = text_read(reader, node, parameter->name);
@@ -158,8 +175,14 @@ static bool value_read(struct scene_reader *reader, const struct parameter *para
     return levels_read(reader, parameter, node, value);
   case VALUE_PLUGIN:
     return plugin_read(reader, parameter->kind, node, value);
+  case VALUE_LIST:
+  case VALUE_MAP:
+    return entries_read(reader, parameter, node, path, value);
+  case VALUE_ONE_OF:
+    return one_of_read(reader, parameter, node, path, value);
   case VALUE_GROUP:
-    return group_read(reader, parameter, node, path, false, value);
+    snprintf(what, sizeof what, "'%s'", parameter->name);
+    return group_read(reader, parameter, node, path, what, false, value);
   }
   return false;
 }
@@ -208,8 +231,30 @@ static void missing(struct scene_reader *reader, const struct section *section,
                    "'%s' is missing in %s", parameter->name, section->what);
 }
 
+/* What holds others is there for whoever asks for them. Whether it lacks something. */
+static bool absent_read(struct scene_reader *reader, const struct section *section,
+                        const struct parameter *parameter, struct value *value)
+{
+  switch (parameter->type) {
+  case VALUE_GROUP:
+    group_read(reader, parameter, NULL, section->path, parameter->name, true, value);
+    value->present = !parameter->optional && !group_needed(parameter);
+    return group_needed(parameter);
+  case VALUE_LIST:
+  case VALUE_MAP:
+    entries_read(reader, parameter, NULL, section->path, value);
+    return true;
+  case VALUE_ONE_OF:
+    one_of_read(reader, parameter, NULL, section->path, value);
+    return true;
+  default:
+    return true;
+  }
+}
+
 static void parameter_read(struct scene_reader *reader, const struct section *section,
-                           const struct parameter *parameter, struct value *value)
+                           const struct parameter *parameter, unsigned alternative,
+                           struct value *value)
 {
   const struct tree *node = tree_get(section->node, parameter->name);
   value->parameter = parameter;
@@ -221,26 +266,31 @@ static void parameter_read(struct scene_reader *reader, const struct section *se
     value->present = value_read(reader, parameter, node, section->path, value);
     return;
   }
-  bool needed = !parameter->optional && !section->lenient;
-  if (parameter->type == VALUE_GROUP) {
-    group_read(reader, parameter, NULL, section->path, true, value);
-    value->present = !parameter->optional && !group_needed(parameter);
-    needed = needed && group_needed(parameter);
-  }
-  if (needed && !given_set_names(section->descriptor, parameter->name))
+  bool lacks = absent_read(reader, section, parameter, value);
+  if (lacks && !parameter->optional && !section->lenient && parameter->set == alternative &&
+      !given_set_names(section->descriptor, parameter->name))
     missing(reader, section, parameter);
+}
+
+struct values *values_new(const struct parameter *parameter, size_t count, const struct tree *node,
+                          const char *path)
+{
+  struct values *values = scene_take(1, sizeof *values);
+  size_t length = strlen(path) + 1;
+  *values = (struct values){.parameter = parameter,
+                            .count = count,
+                            .value = scene_take(count, sizeof *values->value),
+                            .node = node,
+                            .path = memcpy(scene_take(length, 1), path, length)};
+  return values;
 }
 
 struct values *section_read(struct scene_reader *reader, const struct section *section)
 {
-  struct values *values = scene_take(1, sizeof *values);
+  struct values *values =
+      values_new(section->parameter, section->count, section->node, section->path);
+  const unsigned alternative = alternative_given(section);
   bool outside = reader->pointwise;
-  values->parameter = section->parameter;
-  values->count = section->count;
-  values->value = scene_take(section->count, sizeof *values->value);
-  values->node = section->node;
-  size_t length = strlen(section->path) + 1;
-  values->path = memcpy(scene_take(length, 1), section->path, length);
   for (size_t i = 0; section->node && !section->open && i < section->node->children; i++) {
     struct tree *child = section->node->child[i];
     if (!has_name(section->also, section->others, child->key) &&
@@ -250,9 +300,11 @@ struct values *section_read(struct scene_reader *reader, const struct section *s
   }
   for (size_t i = 0; i < section->count; i++) {
     reader->pointwise = section->pointwise;
-    parameter_read(reader, section, &section->parameter[i], &values->value[i]);
+    const struct parameter *parameter = &section->parameter[i];
+    parameter_read(reader, section, parameter, parameter->set ? alternative : 0, &values->value[i]);
   }
   reader->pointwise = outside;
+  alternatives_check(reader, section, alternative);
   if (section->descriptor)
     values_check(reader, values, section->descriptor, section->what);
   return values;
@@ -273,17 +325,15 @@ gamut_status values_read(const struct descriptor *descriptor, const struct param
     snprintf(what, sizeof what, "'%s'", path);
   if (node && !expect_mapping(&reader, node, what))
     return GAMUT_SCENE;
-  struct section section = {own ? descriptor : NULL,
-                            parameter,
-                            count,
-                            node,
-                            path,
-                            what,
-                            also,
-                            others,
-                            false,
-                            false,
-                            false};
+  struct section section = {.descriptor = own ? descriptor : NULL,
+                            .parameter = parameter,
+                            .count = count,
+                            .node = node,
+                            .path = path,
+                            .what = what,
+                            .also = also,
+                            .others = others,
+                            .one_of = own ? &descriptor->one_of : NULL};
   *values = section_read(&reader, &section);
   if (reader.faults) {
     values_free(*values);
@@ -308,6 +358,7 @@ void values_free(struct values *values)
   }
   free(values->value);
   free(values->path);
+  free(values->own);
   free(values);
 }
 

@@ -263,6 +263,10 @@ static void test_refused(void)
   refused("requires: [a, a]\n", ":6:15:", "stands twice");
 }
 
+/* An effect with these parameters, and what may follow them. */
+#define HOLDS(parameters)                                                                          \
+  "plugin: effect/sample\nversion: 1\nsummary: s\nparameters:\n  " parameters "\n"
+
 static void test_identity(void)
 {
   static const struct {
@@ -282,6 +286,27 @@ static void test_identity(void)
        "outputs: [pressure, sound_speed, energy]\n",
        "belongs under 'state'"},
       {"[1, 2]\n", "no plugin's YAML"},
+      {HOLDS("a: {type: list, doc: d}"), "nothing says what an entry of 'a' is"},
+      {HOLDS("a: {type: map, of: {unit: 1, default: 2}, doc: d}"),
+       "'default' has no meaning for an entry"},
+      {HOLDS("a: {type: list, size: 3..2, of: {unit: 1}, doc: d}"), "no size of a list"},
+      {HOLDS("a: {type: entry, of: b, doc: d}"), "only an argument of a measure names an entry"},
+      {HOLDS("a: {type: one of, doc: d, forms: {b: {unit: 1, doc: d}}}"), "'a' has no forms"},
+      {HOLDS("a: {type: one of, doc: d, forms: {b: {unit: 1, doc: d}, c: {type: text, doc: d}}}"),
+       "the form 'c' of 'a' cannot be told from another one"},
+      {HOLDS("a: {type: group, doc: d, one_of: [b], members: {b: {unit: 1, doc: d}}}"),
+       "no list of alternatives"},
+      {HOLDS("a: {type: group, doc: d, one_of: [b, c], members: {b: {unit: 1, doc: d}}}"),
+       "'one_of' names 'c', which is not declared here"},
+      {HOLDS("b: {unit: 1, doc: d}\n  c: {unit: 1, default: 2, doc: d}\none_of: [b, c]"),
+       "'c' has a default"},
+      {HOLDS("b: {unit: 1, doc: d}\n  c: {unit: 1, doc: d}\none_of: [[b, c], b]"),
+       "'b' stands in two alternatives"},
+      {HOLDS("b: {unit: 1, doc: d}\n  c: {unit: 1, optional: true, doc: d}\none_of: [b, c]"),
+       "some of the alternatives must be given and some need not"},
+      {HOLDS("b: {unit: 1, doc: d}\nmeasures:\n  m: {unit: 1, at: run, doc: d,"
+             " arguments: {e: {type: entry, of: b}}}"),
+       "'b' is no map of this plugin"},
   };
   char words[8192];
   for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {

@@ -204,10 +204,11 @@ struct gamut_host {
    * that type; asking for another is a fault of the plugin and ends the program. Borrowed. */
   bool (*given)(const struct gamut_values *, const char *path); /* in the scene, not by default */
   double (*real)(const struct gamut_values *, const char *path);
-  /* Also of a choice: its number in the descriptor, -1 where there is none. */
+  /* Also of a choice: its number in the descriptor, -1 where there is none; of an entry of a map,
+   * which an argument of a measure names: its number. */
   long (*integer)(const struct gamut_values *, const char *path);
   bool (*boolean)(const struct gamut_values *, const char *path);
-  const char *(*text)(const struct gamut_values *, const char *path); /* text, choice, body */
+  const char *(*text)(const struct gamut_values *, const char *path); /* also choice, body */
   const double *(*vector)(const struct gamut_values *, const char *path, size_t *count);
   /* A table parameter: `rows` rows of as many columns as were declared, row by row. */
   const double *(*table)(const struct gamut_values *, const char *path, size_t *rows);
@@ -352,6 +353,15 @@ struct gamut_host {
   /* The largest of `count` values, under the same rules: minus infinity of none, no number if there
    * is one. For the least, turn the signs. */
   double (*most)(struct gamut_run *, const double *value, size_t count);
+
+  /* A list or a map of the values, in the order of the scene: how many entries it has (0 where it
+   * is absent); the name that the scene gives to one, of a list its number from 0, as in the path
+   * "steps.0"; the values of one that is a group, which are asked like any. Entries that are no
+   * groups are asked for by their path. Borrowed. An index beyond the last is the plugin's fault
+   * and ends the program. */
+  size_t (*entries)(const struct gamut_values *, const char *path);
+  const char *(*entry_name)(const struct gamut_values *, const char *path, size_t index);
+  const struct gamut_values *(*entry)(const struct gamut_values *, const char *path, size_t index);
 };
 
 /* Every run begins with its host; the rest is the core's. */
@@ -402,6 +412,20 @@ static inline const double *gamut_table(const struct gamut_values *v, const char
                                         size_t *rows)
 {
   return GAMUT_HOST(v)->table(v, path, rows);
+}
+
+static inline size_t gamut_entries(const struct gamut_values *v, const char *path)
+{
+  return GAMUT_HOST(v)->entries(v, path);
+}
+static inline const char *gamut_entry_name(const struct gamut_values *v, const char *path, size_t i)
+{
+  return GAMUT_HOST(v)->entry_name(v, path, i);
+}
+static inline const struct gamut_values *gamut_entry(const struct gamut_values *v, const char *path,
+                                                     size_t i)
+{
+  return GAMUT_HOST(v)->entry(v, path, i);
 }
 
 /* The vector at `path` with three components: those that the geometry lacks are 0. */
