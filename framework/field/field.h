@@ -26,6 +26,7 @@ struct field {
   struct gamut_field handle;
   double initial;
   enum given given;
+  bool drawn;     /* a parameter that differs from point to point, under its scene path */
   bool used;      /* some live task or output touches it */
   bool history;   /* keeps a begin and an end value */
   bool stored;    /* has arrays; otherwise it lives in a thread's scratch during a sweep */

@@ -35,15 +35,19 @@ struct field *slot_field(const struct kernel *kernel, size_t number, struct fiel
   const struct descriptor *d = kernel->descriptor;
   const struct slot *slot = &kernel->slot[number];
   const char *name = NULL, *unit = slot->unit, *meaning = "";
-  if (slot_varies(kernel, number))
-    return fields_add(fields, kernel->path[number], GAMUT_AT_POINT, 1, unit,
-                      "parameter with a random field", trace);
+  if (slot_varies(kernel, number)) {
+    struct field *drawn = fields_add(fields, kernel->path[number], GAMUT_AT_POINT, 1, unit,
+                                     "parameter with a random field", trace);
+    if (drawn)
+      drawn->drawn = true;
+    return drawn;
+  }
   if (slot->kind == SLOT_INPUT)
     name = d->input[slot->index].name;
   else if (slot->kind == SLOT_OUTPUT)
     name = d->output[slot->index].name;
   else {
-    name = d->state[slot->index].name;
+    name = instance_state_field(kernel->instance, slot->index);
     meaning = d->state[slot->index].doc ? d->state[slot->index].doc : "";
   }
   const struct field_info *info = catalogue_find(name);

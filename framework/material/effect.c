@@ -48,28 +48,45 @@ static bool at_point(const char *name)
   return !info || info->where == GAMUT_AT_POINT;
 }
 
-static gamut_status collect_uses(const struct descriptor *d, const struct kernel_task *from,
+static bool is_among(const char *const *list, size_t count, const char *name)
+{
+  for (size_t i = 0; i < count; i++)
+    if (strcmp(list[i], name) == 0)
+      return true;
+  return false;
+}
+
+static void add_use(struct effect_task *to, const struct kernel *kernel, const char *name,
+                    enum gamut_access access)
+{
+  to->use[to->uses++] = (struct gamut_use){instance_field(kernel->instance, name), access};
+}
+
+/* A state that the task writes is read at its beginning; one of another task of this effect, at the
+ * end. */
+static gamut_status collect_uses(const struct kernel *kernel, const struct kernel_task *from,
                                  struct effect_task *to)
 {
+  const struct descriptor *d = kernel->descriptor;
   size_t most = from->reads + 2 * from->writes + from->adds + from->scales + from->lowers;
   to->use = calloc(most + 1, sizeof *to->use);
   if (!to->use)
     return GAMUT_INTERNAL;
   for (size_t i = 0; i < from->reads; i++)
-    if (at_point(from->read[i]) && !declared_state(d, from->read[i]))
-      to->use[to->uses++] = (struct gamut_use){
-          from->read[i], optional_input(d, from->read[i]) ? GAMUT_READ_IF : GAMUT_READ};
+    if (at_point(from->read[i]) && !is_among(from->write, from->writes, from->read[i]))
+      add_use(to, kernel, from->read[i],
+              optional_input(d, from->read[i]) ? GAMUT_READ_IF : GAMUT_READ);
   for (size_t i = 0; i < from->writes; i++) {
     if (declared_state(d, from->write[i]))
-      to->use[to->uses++] = (struct gamut_use){from->write[i], GAMUT_READ_BEGIN};
-    to->use[to->uses++] = (struct gamut_use){from->write[i], GAMUT_WRITE};
+      add_use(to, kernel, from->write[i], GAMUT_READ_BEGIN);
+    add_use(to, kernel, from->write[i], GAMUT_WRITE);
   }
   for (size_t i = 0; i < from->adds; i++)
-    to->use[to->uses++] = (struct gamut_use){from->add[i], GAMUT_ADD};
+    add_use(to, kernel, from->add[i], GAMUT_ADD);
   for (size_t i = 0; i < from->scales; i++)
-    to->use[to->uses++] = (struct gamut_use){from->scale[i], GAMUT_SCALE};
+    add_use(to, kernel, from->scale[i], GAMUT_SCALE);
   for (size_t i = 0; i < from->lowers; i++)
-    to->use[to->uses++] = (struct gamut_use){from->lower[i], GAMUT_LEAST};
+    add_use(to, kernel, from->lower[i], GAMUT_LEAST);
   return GAMUT_OK;
 }
 
@@ -106,7 +123,7 @@ static gamut_status make_tasks(struct bound_effect *bound, struct fields *fields
     struct effect_task *task = &bound->task[t];
     task->links = calloc(bound->materials, sizeof *task->links);
     task->call = kernel_named(bound->kernel[0], d->task[t].kernel);
-    if (!task->links || collect_uses(d, &d->task[t], task) != GAMUT_OK ||
+    if (!task->links || collect_uses(bound->kernel[0], &d->task[t], task) != GAMUT_OK ||
         add_paths(bound, task) != GAMUT_OK)
       return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
     for (size_t m = 0; m < bound->materials; m++)

@@ -87,7 +87,7 @@ static gamut_status create_solver(struct gamut_run *run)
     goto done;
   }
   TRY(declare_outputs(run));
-  TRY(declare_states(run, run->scene->solver.descriptor));
+  TRY(declare_states(run, &run->scene->solver));
   TRY(GUARDED(instance->descriptor->id, ops->create(run, instance->values, &run->solver_self)));
   run->solver = ops;
   if ((run->scene->checkpoint_every > 0.0 || run->scene->checkpoint_wall > 0.0) &&
@@ -195,10 +195,27 @@ static const char *adding(const struct gamut_run *run)
                        : run->scene->solver.descriptor->id;
 }
 
-gamut_status run_add_task(struct gamut_run *run, const char *owner, const struct gamut_task *task,
+/* An effect's task names states of its own. */
+static struct gamut_use *resolved_uses(const struct gamut_run *run, const struct gamut_task *task)
+{
+  struct gamut_use *uses = calloc(task->use_count + 1, sizeof *uses);
+  for (size_t i = 0; uses && i < task->use_count; i++) {
+    uses[i] = task->uses[i];
+    if (run->creating)
+      uses[i].field = instance_field(&run->creating->effect->instance, uses[i].field);
+  }
+  return uses;
+}
+
+gamut_status run_add_task(struct gamut_run *run, const char *owner, const struct gamut_task *given,
                           size_t only_set, const bool *on_set)
 {
   gamut_status status = GAMUT_OK;
+  struct gamut_task named = *given, *task = &named;
+  struct gamut_use *uses = resolved_uses(run, given);
+  if (!uses)
+    return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+  named.uses = uses;
   TRY(declare_used(run, task));
   if (!task->material) {
     TRY(schedule_add(run->schedule, owner, place_of_owner(run), task, run->fields, only_set, on_set,
@@ -208,6 +225,7 @@ gamut_status run_add_task(struct gamut_run *run, const char *owner, const struct
   for (size_t s = 0; task->material && s < run->scene->bodies; s++)
     TRY(add_material_task(run, owner, task, s));
 done:
+  free(uses);
   return status;
 }
 

@@ -69,15 +69,16 @@ done:
   return status;
 }
 
-/* States of an effect whose tasks are its own; those of kernels are declared with them. */
-gamut_status declare_states(struct gamut_run *run, const struct descriptor *d)
+gamut_status declare_states(struct gamut_run *run, const struct instance *instance)
 {
-  for (size_t i = 0; i < d->states && d->tasks == 0; i++) {
+  const struct descriptor *d = instance->descriptor;
+  for (size_t i = 0; i < d->states; i++) {
     const struct state_variable *state = &d->state[i];
     if (catalogue_find(state->name))
       continue;
-    struct field *field = fields_add(run->fields, state->name, GAMUT_AT_POINT, state->components,
-                                     state->unit, state->doc ? state->doc : "", run->trace);
+    struct field *field =
+        fields_add(run->fields, instance_state_field(instance, i), GAMUT_AT_POINT,
+                   state->components, state->unit, state->doc ? state->doc : "", run->trace);
     if (!field)
       return GAMUT_PLUGIN;
     field->history = true;
@@ -100,7 +101,7 @@ static gamut_status create_one(struct gamut_run *run, const struct effect *from)
   run->effects++;
   TRY(registry_open(run->registry, from->instance.descriptor, run->trace, &plugin));
   effect->ops = plugin->ops;
-  TRY(declare_states(run, from->instance.descriptor));
+  TRY(declare_states(run, &from->instance));
   run->creating = effect;
   if (effect->ops->create)
     TRY(GUARDED(from->instance.descriptor->id,

@@ -4,13 +4,13 @@
 #include "run/run_private.h"
 
 /* Fields that have values though no task writes them: a body's temperature, what the solver says
- * that it puts out, and parameters with a random field, whose name is a path. */
+ * that it puts out, and parameters with a random field. */
 void given_mark(struct gamut_run *run)
 {
   const struct descriptor *solver = run->scene->solver.descriptor;
   for (size_t f = 0; f < fields_count(run->fields); f++) {
     struct field *field = fields_at(run->fields, f);
-    bool own = strchr(field->name, '.') != NULL;
+    bool own = field->drawn;
     for (size_t i = 0; i < solver->outputs; i++)
       own = own || strcmp(solver->output[i].name, field->name) == 0;
     bool state = false;

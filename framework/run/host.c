@@ -154,8 +154,19 @@ static gamut_status host_points(struct gamut_run *run, const struct gamut_body *
   return GAMUT_OK;
 }
 
+/* The effect that is made or that measures now, and means its own states; or null. */
+static const struct instance *asking(const struct gamut_run *run)
+{
+  const struct running_effect *effect = run->creating   ? run->creating
+                                        : run->measured ? run->measured->effect
+                                                        : NULL;
+  return effect ? &effect->effect->instance : NULL;
+}
+
 static gamut_status host_field(struct gamut_run *run, const char *name, struct gamut_field *handle)
 {
+  if (asking(run))
+    name = instance_field(asking(run), name);
   const struct field_info *info = catalogue_find(name);
   struct field *field = fields_find(run->fields, name);
   bool derived = false;

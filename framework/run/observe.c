@@ -62,10 +62,10 @@ static gamut_status create_probe(struct gamut_run *run, struct probe *probe,
            quantity->family ? quantity->family : quantity->name);
   TRY(wants_of_arguments(run, quantity, why, &probe->derived));
   if (from_points(quantity)) {
-    if (quantity->measure && quantity->measure->formula)
+    if (!quantity->field && quantity->measure && quantity->measure->formula)
       TRY(formula_new(run, quantity->measure, &probe->formula));
     else
-      TRY(formula_plain(run, quantity->measure ? quantity->measure->name : quantity->field,
+      TRY(formula_plain(run, quantity->field ? quantity->field : quantity->measure->name,
                         &probe->formula));
     formula_want(&probe->formula, run, quantity->body >= 0 ? (size_t)quantity->body : SIZE_MAX, why,
                  quantity->node ? &quantity->node->place : NULL);

@@ -183,8 +183,8 @@ gamut_status effects_resolve(struct gamut_run *);
 /* effects_check.c; after the plan: an effect that sets the stress needs elasticities that take it
  * up; one that opens material is warned of where the eos stops there. */
 gamut_status effects_check(struct gamut_run *);
-/* Fields for the states of a plugin whose tasks are its own, not the descriptor's. */
-gamut_status declare_states(struct gamut_run *, const struct descriptor *);
+/* Fields for the states of a solver or an effect, which its `create` may ask for. */
+gamut_status declare_states(struct gamut_run *, const struct instance *);
 
 /* formula.c */
 /* Of a measure of points that has a formula. */

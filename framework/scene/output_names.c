@@ -48,12 +48,13 @@ static void visit(struct search *search, const char *field, unsigned components,
   }
 }
 
-static void visit_plugin(struct search *search, const struct descriptor *descriptor)
+static void visit_plugin(struct search *search, const struct instance *instance)
 {
+  const struct descriptor *descriptor = instance->descriptor;
   if (!descriptor)
     return;
   for (size_t i = 0; i < descriptor->states; i++)
-    visit(search, descriptor->state[i].name, descriptor->state[i].components,
+    visit(search, instance_state_field(instance, i), descriptor->state[i].components,
           descriptor->state[i].unit);
   for (size_t i = 0; i < descriptor->outputs; i++)
     if (descriptor->output[i].unit && !catalogue_find(descriptor->output[i].name))
@@ -79,7 +80,7 @@ static void visit_parameters(struct search *search, const struct values *values,
 
 static void visit_instance(struct search *search, const struct instance *instance)
 {
-  visit_plugin(search, instance->descriptor);
+  visit_plugin(search, instance);
   if (instance->descriptor)
     visit_parameters(search, instance->values, instance->descriptor);
 }
@@ -97,7 +98,7 @@ static void visit_all(struct search *search, const struct scene *scene)
   }
   for (size_t i = 0; i < scene->effects; i++)
     visit_instance(search, &scene->effect[i].instance);
-  visit_plugin(search, scene->solver.descriptor);
+  visit_plugin(search, &scene->solver);
 }
 
 const char *field_unit(const struct scene_reader *reader, const char *name, bool component)

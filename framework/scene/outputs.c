@@ -82,9 +82,11 @@ static void error_at_field(struct scene_reader *reader, const struct tree *node)
   for (size_t i = 0; i < fields; i++)
     name[count++] = field[i];
   const char *now = renamed_field(node->text);
+  const char *states = effect_states_expected(reader, node->text, expected, sizeof expected);
   error_at_value(reader, node,
-                 now ? renamed_words(node->text, now, expected, sizeof expected)
-                     : suggest(reader, node->text, name, count, expected, sizeof expected),
+                 now      ? renamed_words(node->text, now, expected, sizeof expected)
+                 : states ? states
+                          : suggest(reader, node->text, name, count, expected, sizeof expected),
                  "unknown field '%.60s'", node->text);
   free(field);
   free(name);

@@ -63,9 +63,11 @@ static void error_at_measure(struct scene_reader *reader, const struct tree *nod
     if (!has_name(name, names, field[i]))
       name[names++] = field[i];
   const char *now = renamed_field(node->text);
+  const char *states = effect_states_expected(reader, node->text, expected, sizeof expected);
   error_at_value(reader, node,
-                 now ? renamed_words(node->text, now, expected, sizeof expected)
-                     : suggest(reader, node->text, name, names, expected, sizeof expected),
+                 now      ? renamed_words(node->text, now, expected, sizeof expected)
+                 : states ? states
+                          : suggest(reader, node->text, name, names, expected, sizeof expected),
                  "unknown measure '%.60s'", node->text);
   free(name);
   free(field);
@@ -150,9 +152,10 @@ static void error_at_old_field(struct scene_reader *reader, const struct tree *n
 {
   char expected[WORDS_SIZE];
   const char *now = renamed_field(named->text);
-  if (now)
-    error_at_value(reader, named, renamed_words(named->text, now, expected, sizeof expected),
-                   "unknown field '%.60s'", named->text);
+  const char *words = now ? renamed_words(named->text, now, expected, sizeof expected)
+                          : effect_states_expected(reader, named->text, expected, sizeof expected);
+  if (words)
+    error_at_value(reader, named, words, "unknown field '%.60s'", named->text);
 }
 
 /* The unit of the field, or of the measure of points, that an argument names. */

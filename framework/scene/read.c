@@ -45,6 +45,7 @@ static void sections_read(struct scene_reader *reader, struct scene *scene)
   materials_read(reader, root);
   bodies_read(reader, root);
   effects_read(reader, root);
+  effect_states_name(reader);
   material_needs(reader);
   quantities_read(reader, root);
   outputs_read(reader, root);

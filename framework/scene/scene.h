@@ -85,7 +85,13 @@ struct instance {   /* a plugin named by the scene with its values */
   const struct descriptor *descriptor;
   struct values *values;
   const struct tree *node;
+  const char **state_field; /* effects that are not off: one a state, the name of its field */
 };
+
+/* The field of a plugin's state, or of one that is no effect's: the state's own name. */
+const char *instance_state_field(const struct instance *, size_t state);
+/* The field that `name` means to this plugin: that of its state of that name, else `name`. */
+const char *instance_field(const struct instance *, const char *name);
 
 struct material {
   const char *name;

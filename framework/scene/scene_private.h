@@ -260,6 +260,15 @@ void bodies_read(struct scene_reader *, const struct tree *root);
 bool shape_read(struct scene_reader *, const struct tree *, struct shape *);
 void bodies_check(struct scene_reader *); /* overlaps, domain, cell */
 void effects_read(struct scene_reader *, const struct tree *root);
+/* effect_states.c: names the fields of effects' states, once all effects are read. */
+void effect_states_name(struct scene_reader *);
+/* The fields "one.damage, other.damage" where a name is that of a state which several effects keep
+ * on one body; null where it is not. */
+const char *effect_states_words(const struct scene_reader *, const char *name, char *buffer,
+                                size_t size);
+/* What to write in its place, as effect_states_words. */
+const char *effect_states_expected(const struct scene_reader *, const char *name, char *buffer,
+                                   size_t size);
 void quantities_read(struct scene_reader *, const struct tree *root);
 /* quantity_at.c: where it is taken. Where there are several points `places` gets them, x y z of one
  * after the other, to be freed; else its count is 0. */
