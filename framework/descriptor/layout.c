@@ -64,8 +64,8 @@ static const char *by_unit(const struct descriptor *d, size_t index)
 {
   const struct parameter *parameter =
       parameter_named(d->parameter, d->parameters, d->derivative_by[index]);
-  if (parameter)
-    return parameter->unit;
+  if (parameter) /* none where it could not be read, or is no number */
+    return parameter->unit ? parameter->unit : "1";
   for (size_t i = 0; i < d->inputs; i++)
     if (strcmp(d->input[i].name, d->derivative_by[index]) == 0)
       return d->input[i].unit;
