@@ -112,7 +112,9 @@ FRAME = (
         ("estimator", "plugin, or off", "`model` names it; off: one run at the means."),
         ("seed", "whole number", "Of the random numbers; 1 unless stated."),
         ("correlation", "list", "Of [path, path, number from -1 to 1]: between random parameters."),
-        ("failures", "1", "Share of the runs that may fail."))),
+        ("failures", "1", "Share of the runs that may fail."),
+        ("step_margin", "1, or off", "Share by which the common steps of a sample's runs are "
+         "shorter than those at the means; 0.2 unless stated; off: each run takes its own."))),
     ("A random number", ("$defs", "random"), (
         ("mean", "as the parameter", "Mean."),
         ("cv", "1", "Coefficient of variation: standard deviation over mean; of a temperature "

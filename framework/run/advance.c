@@ -1,4 +1,5 @@
 #include <math.h>
+#include <stdlib.h>
 #include <sys/resource.h>
 
 #include "base/clock.h"
@@ -51,19 +52,54 @@ gamut_status run_start(struct gamut_run *run, struct trace *trace)
   return advance_start(run);
 }
 
+static bool has_given_steps(const struct gamut_run *run)
+{
+  return run->options.given.count > 0 && run->end > 0.0;
+}
+
+static bool is_sliver(double left, double step)
+{
+  return left - step < 1e-9 * step;
+}
+
+/* The longest step that may be taken from here. */
+static double longest_step(const struct gamut_run *run)
+{
+  const struct run_steps *given = &run->options.given;
+  const double left = run->end > 0.0 ? run->end - run->time : INFINITY;
+  if (!has_given_steps(run) || run->steps >= given->count)
+    return left;
+  const double step = given->step[run->steps];
+  return step > left || is_sliver(left, step) ? left : step;
+}
+
+static gamut_status check_given(const struct gamut_run *run, double given, double needed)
+{
+  if (!(needed < given) || needed == 0.0) /* 0: the solver has come to its end */
+    return GAMUT_OK;
+  return trace_fail_at(run->trace, GAMUT_NUMERICS, NULL, "uncertainty.step_margin",
+                       "a larger margin; off: each run takes its own steps",
+                       "at t = %.6g s the run needs a step of %.6g s or less, but all runs of the "
+                       "study take one of %.6g s here (step %llu)",
+                       run->time, needed, given, (unsigned long long)run->steps);
+}
+
 static gamut_status choose_step(struct gamut_run *run, double *step)
 {
   gamut_status status;
-  double left = run->end - run->time, factor = INFINITY;
+  const double left = run->end - run->time, longest = longest_step(run);
+  double factor = INFINITY;
   for (size_t m = 0; m < run->scene->materials; m++)
     if (run->material[m])
       factor = fmin(factor, material_step_factor(run->material[m]));
-  *step = run->end > 0.0 ? left : INFINITY;
+  *step = longest;
   if (run->steps > 0)
     *step = fmin(*step, factor * run->step);
   TRY(GUARDED(solver_of(run), run->solver->next(run->solver_self, step)));
+  if (has_given_steps(run))
+    TRY(check_given(run, longest, *step));
   /* A sliver of a last step would be all rounding. */
-  if (run->end > 0.0 && *step > 0.0 && left - *step < 1e-9 * *step)
+  if (run->end > 0.0 && *step > 0.0 && is_sliver(left, *step))
     *step = left;
   if (!(*step >= 0.0) || (run->end > 0.0 && *step > left))
     status = trace_fail(run->trace, GAMUT_NUMERICS,
@@ -79,6 +115,34 @@ done:
 gamut_status advance_first_step(struct gamut_run *run, double *step)
 {
   return choose_step(run, step);
+}
+
+static gamut_status keep_step(struct gamut_run *run, double step)
+{
+  if (!run->options.keep_steps)
+    return GAMUT_OK;
+  if (run->steps == run->taken_capacity) {
+    const size_t capacity = 2 * run->taken_capacity + 1024;
+    double *grown = realloc(run->taken, capacity * sizeof *grown);
+    if (!grown)
+      return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
+    run->taken = grown;
+    run->taken_capacity = capacity;
+  }
+  run->taken[run->steps] = step;
+  return GAMUT_OK;
+}
+
+struct run_steps run_steps_taken(const struct gamut_run *run)
+{
+  const bool whole = run->taken && run->end > 0.0 && run->time == run->end && !run->resumed;
+  return whole && !run->fixed_steps ? (struct run_steps){run->taken, run->steps}
+                                    : (struct run_steps){NULL, 0};
+}
+
+bool run_steps_fixed(const struct gamut_run *run)
+{
+  return run->fixed_steps;
 }
 
 static uint64_t count_points(const struct gamut_run *run)
@@ -102,6 +166,7 @@ gamut_status advance_step(struct gamut_run *run, bool *more)
   if (!*more)
     return GAMUT_OK;
   run->step = step;
+  TRY(keep_step(run, step));
   TRY(observe_before(run, step, &due));
   set_uniform_field(run, "time_step", step);
   set_uniform_field(run, "time", run->time);

@@ -416,6 +416,7 @@ void run_free(struct gamut_run *run)
   observe_free(run);
   frames_free(run);
   ledger_free(run);
+  free(run->taken);
   for (size_t m = 0; run->material && m < run->scene->materials; m++)
     material_free(run->material[m]);
   for (size_t s = 0; run->set && s < run->scene->bodies; s++)

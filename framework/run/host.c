@@ -347,6 +347,16 @@ static uint64_t host_step(const struct gamut_run *run)
   return run->steps;
 }
 
+static void host_fixed_steps(struct gamut_run *run)
+{
+  run->fixed_steps = true;
+}
+
+static bool host_given_steps(const struct gamut_run *run)
+{
+  return run->options.given.count > 0 && run->end > 0.0;
+}
+
 static int host_threads(const struct gamut_run *run)
 {
   return run->threads;
@@ -407,4 +417,6 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .fail_plane = host_fail_plane,
                                     .count = work_open,
                                     .body_strength = host_body_strength,
+                                    .fixed_steps = host_fixed_steps,
+                                    .given_steps = host_given_steps,
                                     HOST_OF_SUMS};

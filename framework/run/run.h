@@ -14,6 +14,9 @@
 #include "schedule/schedule.h"
 #include "store/store.h"
 
+/* Time steps, one after the other. */
+struct run_steps { const double *step; size_t count; };
+
 struct run_options {
   int threads;                   /* 0: what OpenMP says, but no more than there is work for */
   /* Called about ten times a second on a terminal and at every tenth of the run elsewhere; null:
@@ -27,6 +30,10 @@ struct run_options {
   /* What random numbers of the run depend on: the scene's seed (0: as scene->seed), and which run
    * of a study this is, from 0. */
   uint64_t seed, realisation;
+  /* Steps that the run has to take (borrowed); none: it takes its own. It fails where it needs a
+   * shorter one. Only where the end of the run is known. */
+  struct run_steps given;
+  bool keep_steps; /* for run_steps_taken */
 };
 
 struct gamut_run;
@@ -75,6 +82,10 @@ const struct arena *run_arena(const struct gamut_run *);
 struct run_cost run_cost_of(const struct gamut_run *);
 struct history *const *run_histories(const struct gamut_run *, size_t *count);
 double run_time(const struct gamut_run *);
+/* The steps of a run that has come to its end, where it was told to keep them; none of a solver
+ * whose steps are fixed or whose end is not known. */
+struct run_steps run_steps_taken(const struct gamut_run *);
+bool run_steps_fixed(const struct gamut_run *);
 /* summary.json of architecture.md section 7, as text to be freed. */
 char *run_summary(const struct gamut_run *, gamut_status, const struct registry *);
 /* `gamut explain`: for people, or JSON. Needs run_new only. */

@@ -133,6 +133,9 @@ struct gamut_run {
 
   double time, step, end;
   uint64_t steps;
+  bool fixed_steps;       /* the solver says so */
+  double *taken;          /* the steps so far, where they are kept */
+  size_t taken_capacity;
   double next_frame;
   uint64_t frame;
   double wall, cpu;

@@ -19,7 +19,8 @@
  *   outputs: {every: 5 us, fields: [..], checkpoint: 10 min}
  *                                     or {frames: 20}; checkpoint: wall time, or {every: 10 us}
  *   uncertainty: {estimator: {model:, ...}, seed:, correlation: [[path, path, number], ..],
- *                 failures: share}    see study/study.h
+ *                 failures: share,    see study/study.h
+ *                 step_margin: share}
  *
  * A real parameter may be random: {mean: 90 MPa, cv: 0.1} or {mean:, sd:, distribution:,
  * truncate:}; or {distribution: uniform, lower:, upper:}. A run without a study takes the mean and
@@ -237,6 +238,8 @@ struct scene {
   struct instance estimator; /* descriptor null: no study */
   uint64_t seed;
   double failures;     /* share of the runs of a study that may fail */
+  double step_margin;  /* share by which steps of a study's runs are shorter than at the means; NaN:
+                          each run takes its own */
   double *correlation; /* of the normal variables behind the random parameters, row by row, no
                           eigenvalue below 0; null: independent */
 };

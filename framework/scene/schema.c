@@ -381,9 +381,10 @@ void schema_write(const struct registry *registry, FILE *file)
                        "integer", "fields", reference("names"), "checkpoint", checkpoint),
              true);
   json_t *uncertainty =
-      object(json_pack("{s:o, s:{s:s}, s:{s:s}, s:{s:s}}", "estimator",
+      object(json_pack("{s:o, s:{s:s}, s:{s:s}, s:{s:s}, s:{s:[{s:s}, {s:s}]}}", "estimator",
                        plugin_schema(registry, GAMUT_KIND_ESTIMATOR, NULL), "correlation", "type",
-                       "array", "seed", "type", "integer", "failures", "type", "number"),
+                       "array", "seed", "type", "integer", "failures", "type", "number",
+                       "step_margin", "anyOf", "type", "number", "const", "off"),
              true);
   json_t *properties =
       json_pack("{s:{s:i}, s:{s:s}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "gamut", "const", 1,

@@ -268,6 +268,9 @@ static void seed_read(struct scene_reader *reader, const struct tree *node)
     reader->scene->seed = seed;
 }
 
+/* Room for sound that is faster than at the means by up to a quarter. */
+#define STEP_MARGIN 0.2
+
 static void failures_read(struct scene_reader *reader, const struct tree *node)
 {
   reader->scene->failures = 0.1;
@@ -278,15 +281,33 @@ static void failures_read(struct scene_reader *reader, const struct tree *node)
                    "'failures' is the share of runs that may fail");
 }
 
-/* `off`: one run at the means, as if there were no estimator. */
+/* In place of a value: off. */
 static bool says_off(const struct tree *node)
 {
   return node->kind == TREE_SCALAR && strcmp(node->text, "off") == 0;
 }
 
+/* `off`: each run takes its own steps. */
+static void step_margin_read(struct scene_reader *reader, const struct tree *node)
+{
+  double *margin = &reader->scene->step_margin;
+  *margin = STEP_MARGIN;
+  if (node && says_off(node)) {
+    *margin = NAN;
+    return;
+  }
+  if (!node || !amount_read(reader, node, "step_margin", "1", margin))
+    return;
+  if (!(*margin >= 0 && *margin < 1))
+    error_at_value(reader, node, "at least 0 and less than 1, or off",
+                   "'step_margin' is the share by which the steps of all runs are shorter than "
+                   "those at the means");
+}
+
 void uncertainty_read(struct scene_reader *reader, const struct tree *root)
 {
-  static const char *const known[] = {"estimator", "correlation", "seed", "failures"};
+  static const char *const known[] = {"estimator", "correlation", "seed", "failures",
+                                      "step_margin"};
   const struct tree *node = tree_get(root, "uncertainty"), *estimator;
   random_parameters_read(reader);
   if (node && (!expect_mapping(reader, node, "'uncertainty'")))
@@ -295,6 +316,7 @@ void uncertainty_read(struct scene_reader *reader, const struct tree *root)
     expect_keys(reader, node, known, ARRAY_SIZE(known), "'uncertainty'");
   seed_read(reader, tree_get(node, "seed"));
   failures_read(reader, tree_get(node, "failures"));
+  step_margin_read(reader, tree_get(node, "step_margin"));
   correlation_read(reader, tree_get(node, "correlation"));
   estimator = tree_get(node, "estimator");
   if (estimator && !says_off(estimator))

@@ -56,7 +56,7 @@ static gamut_status check_level(struct study *study, size_t level)
 static gamut_status check_levels(struct study *study)
 {
   gamut_status status;
-  const size_t levels = levels_of_table(study);
+  const size_t levels = level_count(study);
   TRY(plan_first_level(study));
   for (size_t i = 0; i < levels && !too_many_fail(study); i++)
     TRY(check_level(study, i));

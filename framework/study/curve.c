@@ -127,7 +127,7 @@ static bool take_own(const struct history *h, struct own_curve *own)
 }
 
 gamut_status measured_take(const struct study *study, const struct gamut_run *run,
-                         struct outcome *outcome)
+                           struct outcome *outcome)
 {
   size_t count;
   struct history *const *history = run_histories(run, &count);

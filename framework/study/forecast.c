@@ -28,6 +28,13 @@ done:
   return status;
 }
 
+/* Common steps are shorter than those of the run that was forecast. */
+static double slower(const struct study *study, const struct gamut_run *run)
+{
+  const double margin = study->scene->step_margin;
+  return !study->table && margin >= 0 && !run_steps_fixed(run) ? 1 / (1 - margin) : 1;
+}
+
 gamut_status study_forecast(struct study *study, const struct gamut_run *run,
                             const struct run_forecast *one, struct study_forecast *f)
 {
@@ -40,7 +47,7 @@ gamut_status study_forecast(struct study *study, const struct gamut_run *run,
   if (runs < f->threads)
     f->threads = f->runs > 0 ? (int)f->runs : 1;
   if (one->known)
-    f->seconds = one->seconds * (ceil(runs / f->threads) + f->nominal);
+    f->seconds = one->seconds * (ceil(runs / f->threads) * slower(study, run) + f->nominal);
   f->bytes = (double)one->bytes * f->threads +
              runs * (double)(study->results + study->parameters) * sizeof(double);
 done:

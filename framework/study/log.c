@@ -2,6 +2,7 @@
  *
  *   gamut-study 3 DIGEST
  *   curve QUANTITY COUNT AXIS...
+ *   steps LEVEL COUNT STEP...              that all runs of the level take
  *   nominal LEVEL MODE REALISATION STEPS POINTS WORK WALL CPU PARAMETERS... RESULTS... ok|failed
  *     REASON
  *   run NUMBER LEVEL MODE REALISATION ... as of the nominal run
@@ -188,9 +189,29 @@ static gamut_status log_outcome(struct study *study, const char *head, const str
   return append(study, text, size);
 }
 
-gamut_status log_nominal(struct study *study)
+static gamut_status log_steps(struct study *study, size_t level)
 {
-  return log_outcome(study, "nominal", &study->nominal);
+  const struct common_steps *steps = &study->nominal[level].steps;
+  char *text = NULL;
+  size_t size = 0;
+  if (study->log < 0 || steps->count == 0)
+    return GAMUT_OK;
+  FILE *file = open_memstream(&text, &size);
+  if (!file)
+    return trace_fail(study->trace, GAMUT_INTERNAL, "out of memory");
+  fprintf(file, "steps %zu %zu", level, steps->count);
+  for (size_t k = 0; k < steps->count; k++)
+    fprintf(file, " %a", steps->step[k]);
+  memory_close(file, &text);
+  return append(study, text, size);
+}
+
+/* The steps come first: where the line of the run is, they are. */
+gamut_status log_nominal(struct study *study, size_t level)
+{
+  const gamut_status status = log_steps(study, level);
+  return status == GAMUT_OK ? log_outcome(study, "nominal", &study->nominal[level].outcome)
+                            : status;
 }
 
 gamut_status log_run(struct study *study, size_t number, const struct outcome *o)
@@ -279,6 +300,21 @@ static bool read_curve(struct study *study, char *text)
   return good;
 }
 
+static bool read_steps(struct study *study, char *text)
+{
+  uint64_t level, count;
+  if (!study->nominal || !next_whole(&text, &level) || !next_whole(&text, &count) ||
+      level >= level_count(study) || count > strlen(text))
+    return false;
+  struct common_steps *steps = &study->nominal[level].steps;
+  free(steps->step);
+  *steps = (struct common_steps){calloc(count + 1, sizeof *steps->step), count};
+  bool good = steps->step != NULL;
+  for (size_t k = 0; good && k < count; k++)
+    good = next_number(&text, &steps->step[k]);
+  return good;
+}
+
 static bool logged_room(struct study *study, uint64_t number)
 {
   enum { RUNS_MAX = 1 << 28 };
@@ -333,6 +369,14 @@ static bool read_outcome(struct study *study, char *text, struct outcome *o)
   return good;
 }
 
+static bool read_nominal(struct study *study, char *text)
+{
+  char *after = text;
+  uint64_t level;
+  return study->nominal && next_whole(&after, &level) && level < level_count(study) &&
+         read_outcome(study, text, &study->nominal[level].outcome);
+}
+
 static bool read_run(struct study *study, char *text)
 {
   uint64_t number;
@@ -377,7 +421,9 @@ static gamut_status read_line(struct study *study, const char *path, char *line,
   else if (strncmp(line, "run ", 4) == 0)
     good = read_run(study, line + 4);
   else if (strncmp(line, "nominal ", 8) == 0)
-    good = read_outcome(study, line + 8, &study->nominal);
+    good = read_nominal(study, line + 8);
+  else if (strncmp(line, "steps ", 6) == 0)
+    good = read_steps(study, line + 6);
   return good ? GAMUT_OK : refuse(study, path, number, "it cannot be understood");
 }
 

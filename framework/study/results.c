@@ -8,8 +8,8 @@
 enum { KEPT_NUMBERS = 1 << 25 };
 enum { PARTS = 10 }; /* axis, moments and the run at the means of a curve */
 
-/* Columns with the memory behind them. The run at the means, where there is one, is the first row,
- * and its number is -1. */
+/* Columns with the memory behind them. The runs at the means, where there are any, are the first
+ * rows; each has the number -1, and its level. */
 struct table {
   struct table_column *column;
   size_t columns;
@@ -45,8 +45,8 @@ static const char **text_column(struct table *table, const char *group, const ch
 /* The outcome that a row is of. */
 static const struct outcome *row_of(const struct study *study, size_t row)
 {
-  const size_t above = study->nominal.done;
-  return row < above ? &study->nominal : &study->outcome[row - above];
+  const size_t above = nominals_done(study);
+  return row < above ? nominal_done(study, row) : &study->outcome[row - above];
 }
 
 static void add_run(struct table *table, const struct study *study)
@@ -56,12 +56,13 @@ static void add_run(struct table *table, const struct study *study)
   double *realisation =
       number_column(table, NULL, "realisation", "1", "number of its random fields");
   const char **state = text_column(table, NULL, "status", "ok or failed");
+  const size_t above = nominals_done(study);
   for (size_t r = 0; !table->failed && r < table->rows; r++) {
     const struct outcome *o = row_of(study, r);
-    run[r] = (double)r - study->nominal.done;
+    run[r] = r < above ? -1 : (double)(r - above);
     level[r] = (double)o->level;
     realisation[r] = (double)o->realisation;
-    state[r] = o->reason ? "failed" : o == &study->nominal ? "nominal" : "ok";
+    state[r] = o->reason ? "failed" : r < above ? "nominal" : "ok";
   }
 }
 
@@ -120,7 +121,7 @@ static gamut_status write_table(struct study *study, struct store *store)
 {
   gamut_status status;
   size_t columns = 8 + study->varies + study->parameters + study->quantities;
-  struct table table = {.rows = study->runs + study->nominal.done};
+  struct table table = {.rows = study->runs + nominals_done(study)};
   table.column = calloc(columns, sizeof *table.column);
   table.memory = calloc(columns + study->varies * table.rows, sizeof *table.memory);
   table.failed = !table.column || !table.memory;
@@ -132,7 +133,7 @@ static gamut_status write_table(struct study *study, struct store *store)
   }
   status = table.failed ? trace_fail(study->trace, GAMUT_INTERNAL, "out of memory")
                         : store_table(store, "study.csv", "study", table.column, table.columns,
-                                      table.rows, study->nominal.done, study->trace);
+                                      table.rows, nominals_done(study), study->trace);
   for (size_t i = 0; i < table.memories; i++)
     free(table.memory[i]);
   free(table.memory);
@@ -163,7 +164,7 @@ static double *cut_curve(const struct study *study, const struct measured *m, bo
                                  moments->mean_upper + m->first,
                                  moments->variance_lower + m->first,
                                  moments->variance_upper + m->first,
-                                 study->nominal.result + m->first};
+                                 study->nominal[0].outcome.result + m->first};
   for (size_t s = 0; s < PARTS; s++)
     for (size_t i = 0; i < n; i++)
       memory[s * n + i] = source[s][kept[i]];

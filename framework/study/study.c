@@ -89,7 +89,11 @@ void study_free(struct study *study)
   store_close(study->store);
   estimator_free(study);
   levels_free(study);
-  outcome_clear(&study->nominal);
+  for (size_t i = 0; study->nominal && i < level_count(study); i++) {
+    outcome_clear(&study->nominal[i].outcome);
+    free(study->nominal[i].steps.step);
+  }
+  free(study->nominal);
   worker_clear(&study->probe);
   free(study->cut);
   for (size_t i = 0; study->measured && i < study->quantities; i++)
@@ -154,6 +158,7 @@ static gamut_status list_rows(struct study *study)
   for (size_t r = 0; r < batch->rows; r++) {
     struct outcome *o = &study->outcome[study->runs];
     const size_t level = (size_t)batch->level[r], before = study->asked_on[level]++;
+    TRY(nominal_of_level(study, level));
     if (batch->realisation[r] == GAMUT_NEXT_REALISATION)
       batch->realisation[r] = before;
     *o = (struct outcome){.level = level,
@@ -235,7 +240,7 @@ static gamut_status tell(struct study *study, size_t first)
   return GUARDED(estimator_of(study), study->ops->tell(study->self, &study->batch));
 }
 
-size_t levels_of_table(const struct study *study)
+size_t level_count(const struct study *study)
 {
   return study->levels ? study->levels : 1;
 }
@@ -249,7 +254,7 @@ bool too_many_fail(const struct study *study)
 {
   if (!may_fail(study))
     return study->failed > 0;
-  const size_t levels = study->table ? levels_of_table(study) : 0;
+  const size_t levels = study->table ? level_count(study) : 0;
   const size_t runs = levels > study->runs ? levels : study->runs;
   return (double)study->failed > study->scene->failures * (double)runs || study->failed >= runs;
 }

@@ -39,16 +39,28 @@ struct outcome {
   size_t level;
   enum gamut_row_mode mode;
   uint64_t realisation;
-  bool done;         /* made, or found in the log */
-  char *reason;      /* why it failed; null: it did not */
-  double *parameter; /* what was drawn; the mean where nothing was */
-  double *result;    /* NaN where there is none */
+  bool done;             /* made, or found in the log */
+  char *reason;          /* why it failed; null: it did not */
+  double *parameter;     /* what was drawn; the mean where nothing was */
+  double *result;        /* NaN where there is none */
   struct own_curve *own; /* where runs are no sample: one a quantity */
   size_t owns;
   bool again; /* what was drawn first was not possible */
   uint64_t steps, points;
   double wall, cpu; /* s */
   double work;      /* points times steps */
+};
+
+/* Steps that all runs of a level take; none: each takes its own. */
+struct common_steps {
+  double *step;
+  size_t count;
+};
+
+/* The run at the means of a level, where runs are a sample; in no statistic. */
+struct nominal {
+  struct outcome outcome;
+  struct common_steps steps;
 };
 
 /* What an estimator may ask of the core. */
@@ -89,7 +101,7 @@ struct study {
   struct cut *cut;
   size_t cuts;
   struct worker probe; /* its scene judges what is drawn */
-  double *lower; /* Cholesky's factor; null: independent */
+  double *lower;       /* Cholesky's factor; null: independent */
 
   struct measured *measured; /* one a quantity of the scene */
   size_t quantities, results;
@@ -102,11 +114,12 @@ struct study {
   struct gamut_batch batch;
   double *batch_result;              /* what batch.result shows */
   struct gamut_row_cost *batch_cost; /* and batch.cost */
-  double *moment; /* MOMENTS of each result, once reported */
+  double *moment;                    /* MOMENTS of each result, once reported */
   struct gamut_moments moments;
   struct study_report *report; /* what else was reported */
 
-  struct outcome nominal;  /* the run at the means, where runs are a sample; in no statistic */
+  struct nominal *nominal; /* one a level; null where runs are no sample. Others than the first
+                              are made when their level is first asked for */
   struct outcome *outcome; /* in the order of asking */
   size_t runs, room;
   size_t *asked_on;                  /* runs asked for so far, one a level */
@@ -151,11 +164,21 @@ size_t curve_overlap(const struct study *, const struct measured *, size_t *kept
 
 /* nominal.c: plans what is measured, opens plugins and folder, makes the run at the means. */
 gamut_status nominal_prepare(struct study *, const char *folder);
+/* Makes the run at the means of a level that has none yet. */
+gamut_status nominal_of_level(struct study *, size_t level);
+/* Those that are done, in the order of levels; null past the last. */
+const struct outcome *nominal_done(const struct study *, size_t index);
+size_t nominals_done(const struct study *);
+
+/* steps.c: the steps that runs take in place of those that the run at the means took up to `end`:
+ * shorter by the share `margin`. False without memory. */
+bool steps_make(struct run_steps taken, double end, double margin, struct common_steps *);
+struct run_steps steps_of(const struct study *, size_t level);
 /* Where runs stand for themselves: what is measured, by the first level that can be planned. */
 gamut_status plan_first_level(struct study *);
 
-/* study.c: how many runs a study has whose runs stand for themselves. */
-size_t levels_of_table(const struct study *);
+/* study.c: levels; without any the scene itself is one. */
+size_t level_count(const struct study *); /* at least one */
 /* More than uncertainty.failures allows; of a table, more than it allows of all its levels. */
 bool too_many_fail(const struct study *);
 /* Whether the estimator can leave out a run that failed. */
@@ -180,7 +203,7 @@ gamut_status log_resume(struct study *, const char *folder, bool *there);
 gamut_status log_begin(struct study *, const char *folder);
 bool log_has_axes(const struct study *);
 gamut_status log_axes(struct study *);
-gamut_status log_nominal(struct study *);
+gamut_status log_nominal(struct study *, size_t level); /* with its common steps */
 gamut_status log_run(struct study *, size_t number, const struct outcome *);
 /* Whether the log is still in the folder: what is written to a removed file is lost. */
 gamut_status log_there(struct study *);

@@ -265,6 +265,26 @@ static json_t *level_values(const struct study *study, size_t level, const struc
   return values;
 }
 
+/* The run at the means of a level, beside the statistics. */
+static json_t *nominal_json(const struct study *study, size_t level)
+{
+  const struct outcome *nominal = &study->nominal[level].outcome;
+  json_t *entry = json_object(), *values = json_object();
+  json_object_set_new(entry, "status", json_string(nominal->reason ? "failed" : "ok"));
+  if (nominal->reason)
+    json_object_set_new(entry, "reason", json_string(nominal->reason));
+  json_object_set_new(entry, "steps", json_integer((json_int_t)nominal->steps));
+  if (study->nominal[level].steps.count > 0)
+    json_object_set_new(entry, "common_steps",
+                        json_integer((json_int_t)study->nominal[level].steps.count));
+  for (size_t k = 0; k < study->quantities; k++)
+    if (!study->measured[k].curve)
+      json_object_set_new(values, study->measured[k].quantity->name,
+                          number(nominal->result[study->measured[k].first]));
+  json_object_set_new(entry, "quantities", values);
+  return entry;
+}
+
 /* [{"set": {"solver.cell": "0.4 mm"}, "label": "cell: 0.4 mm", "status": "ok",
  *   "quantities": {"length": 0.0162, "pressure": {"times": [..], "values": [..]}}}], SI. */
 static json_t *levels_json(const struct study *study)
@@ -289,27 +309,12 @@ static json_t *levels_json(const struct study *study)
     if (study->table && run && run->reason)
       json_object_set_new(level, "reason", json_string(run->reason));
     json_object_set_new(level, "quantities", level_values(study, i, run));
+    if (study->nominal && study->nominal[i].outcome.done)
+      json_object_set_new(level, "nominal", nominal_json(study, i));
     json_array_append_new(all, level);
     free(label);
   }
   return all;
-}
-
-/* The run at the means, beside the statistics. */
-static json_t *nominal_json(const struct study *study)
-{
-  const struct outcome *nominal = &study->nominal;
-  json_t *entry = json_object(), *values = json_object();
-  json_object_set_new(entry, "status", json_string(nominal->reason ? "failed" : "ok"));
-  if (nominal->reason)
-    json_object_set_new(entry, "reason", json_string(nominal->reason));
-  json_object_set_new(entry, "steps", json_integer((json_int_t)nominal->steps));
-  for (size_t k = 0; k < study->quantities; k++)
-    if (!study->measured[k].curve)
-      json_object_set_new(values, study->measured[k].quantity->name,
-                          number(nominal->result[study->measured[k].first]));
-  json_object_set_new(entry, "quantities", values);
-  return entry;
 }
 
 /* What was cut off, and how often a run was drawn again for it. */
@@ -377,8 +382,8 @@ static json_t *study_json(const struct study *study, gamut_status status)
     json_object_set_new(entry, "note",
                         json_string("conditional: the moments are those of the runs that did not "
                                     "fail"));
-  if (study->nominal.done)
-    json_object_set_new(entry, "nominal", nominal_json(study));
+  if (study->nominal && study->nominal[0].outcome.done)
+    json_object_set_new(entry, "nominal", nominal_json(study, 0));
   if (study->cuts)
     json_object_set_new(entry, "truncation", truncation_json(study));
   if (study->levels)

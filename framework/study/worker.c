@@ -86,7 +86,8 @@ static gamut_status make(const struct study *study, struct worker *worker,
   const struct run_options options = {.threads = 1,
                                       .stop = study->options.stop,
                                       .seed = study->scene->seed,
-                                      .realisation = outcome->realisation};
+                                      .realisation = outcome->realisation,
+                                      .given = steps_of(study, outcome->level)};
 /* Units are read by one thread at a time. */
 #pragma omp critical(gamut_study_scene)
   status = worker_take(study, worker, outcome->level, trace);

@@ -146,6 +146,13 @@ def two_levels(root, folder):
     if not report(answer.code == 0, "two levels", answer):
         return
     rows = runs_of(out)
+    first = [row for row in table(out) if row["run"] == "-1"]
+    nominal = [level["nominal"] for level in summary(out)["study"]["levels"]]
+    report([row["level"] for row in first] == ["0", "1"]
+           and [row["steps"] for row in first] == [str(n["steps"]) for n in nominal]
+           and all({row["steps"] for row in rows if row["level"] == str(i)}
+                   == {str(n["common_steps"])} for i, n in enumerate(nominal)),
+           "one row -1 a level, whose steps the runs of the level share")
     pairs = [(a, b) for a, b in zip(rows, rows[1:]) if b["level"] == "1"]
     same = ["realisation", "materials.copper.density [kg/m3]", "materials.copper.eos.C0 [m/s]"]
     report(pairs and all(a["level"] == "0" and all(a[k] == b[k] for k in same) for a, b in pairs),

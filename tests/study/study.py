@@ -232,8 +232,8 @@ def moments(values):
 
 
 def monte_carlo(folder):
-    scene = write(folder, "plate.yaml",
-                  PLATE + "uncertainty: {estimator: {model: monte_carlo, runs: 20}, seed: 3}\n")
+    scene = write(folder, "plate.yaml", PLATE + "uncertainty: {estimator: {model: monte_carlo, "
+                  "runs: 20}, seed: 3, step_margin: off}\n")
     out = [os.path.join(folder, f"threads_{n}") for n in (1, 2, 3)]
     for n, one in enumerate(out, 1):
         answer = gamut("run", scene, "-o", one, "--threads", str(n), "--json")

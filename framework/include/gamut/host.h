@@ -342,6 +342,14 @@ struct gamut_host {
   /* Name of the strength of the body's material ("von_mises"); null where it has none. */
   const char *(*body_strength)(const struct gamut_run *, const struct gamut_body *);
 
+  /* Says that the steps of this run are stated and hang on no state, so that a study need not give
+   * any. For solvers, in create. */
+  void (*fixed_steps)(struct gamut_run *);
+  /* Whether the steps of this run are given: all runs of a study take the same. `next` then gets
+   * the given one as the longest, and where it answers by a shorter one the run fails: so it asks
+   * for that only where the state needs it, not to let steps grow slowly. */
+  bool (*given_steps)(const struct gamut_run *);
+
   /* Sums over blocks. A plugin adds serially over the points of a chunk or a block only; what
    * blocks have it puts into a table, a row a block, and `sum` adds up each of its columns: exactly
    * and rounded once to the nearest double, so that no bit of total[0] to total[columns - 1]

@@ -141,6 +141,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
                       .values = values,
                       .threads = gamut_threads(run),
                       .bonds = (size_t)gamut_integer(values, "bonds")};
+  GAMUT_HOST(run)->fixed_steps(run);
   gamut_status status = read_body(bar);
   if (status == GAMUT_OK)
     status = take_arrays(bar);

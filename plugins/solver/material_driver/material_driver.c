@@ -92,6 +92,7 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   driver->run = run;
   driver->values = values;
   driver->step = step_of(values);
+  GAMUT_HOST(run)->fixed_steps(run);
   gamut_status status = path_read(run, values, &driver->path);
   if (status == GAMUT_OK)
     status = make_points(driver);

@@ -25,16 +25,15 @@ gamut_status point_failed(struct model *m, const struct gamut_set *set, size_t s
   double stress[6];
   for (unsigned k = 0; k < 6; k++)
     stress[k] = stored_value(m, set, slot, m->field.stress, k);
-  return gamut_fail(m->run, GAMUT_NUMERICS,
-                    "point %lld of body '%s' was lost at t = %.6g s, step %llu of %.3g s: %s. "
-                    "Position %.6g %.6g %.6g m; velocity %.6g %.6g %.6g m/s; volume_ratio %.6g; "
-                    "stress %.6g %.6g %.6g %.6g %.6g %.6g Pa; energy %.6g J/m3",
-                    (long long)set->id[slot], set->body, gamut_time(m->run),
-                    (unsigned long long)m->host->step(m->run), gamut_time_step(m->run), what, x[0],
-                    x[1], x[2], v[0], v[1], v[2],
-                    stored_value(m, set, slot, m->field.volume_ratio, 0), stress[0], stress[1],
-                    stress[2], stress[3], stress[4], stress[5],
-                    stored_value(m, set, slot, m->field.energy, 0));
+  return gamut_fail(
+      m->run, GAMUT_NUMERICS,
+      "point %lld of body '%s' was lost at t = %.6g s, step %llu of %.3g s: %s. "
+      "Position %.6g %.6g %.6g m; velocity %.6g %.6g %.6g m/s; volume_ratio %.6g; "
+      "stress %.6g %.6g %.6g %.6g %.6g %.6g Pa; energy %.6g J/m3",
+      (long long)set->id[slot], set->body, gamut_time(m->run),
+      (unsigned long long)m->host->step(m->run), gamut_time_step(m->run), what, x[0], x[1], x[2],
+      v[0], v[1], v[2], stored_value(m, set, slot, m->field.volume_ratio, 0), stress[0], stress[1],
+      stress[2], stress[3], stress[4], stress[5], stored_value(m, set, slot, m->field.energy, 0));
 }
 
 static void destroy(void *self)
@@ -147,6 +146,8 @@ static gamut_status create(struct gamut_run *run, const struct gamut_values *val
   m->run = run;
   m->host = GAMUT_HOST(run);
   gamut_status status = model_read(m, values);
+  if (m->fixed_step > 0.0)
+    m->host->fixed_steps(run);
   if (status == GAMUT_OK)
     status = grid_create(&m->grid, run, m->dimension, shape_nodes(m->shape), shape_shift(m->shape),
                          m->cell);
@@ -215,7 +216,7 @@ static double allowed_step(const struct model *m)
   double step = m->omega_squared > 0.0 ? 2.0 * m->courant / sqrt(m->omega_squared) : INFINITY;
   if (m->planes.fastest > 0.0)
     step = fmin(step, m->courant * m->cell / m->planes.fastest);
-  return m->taken == 1 ? step : fmin(step, growth * m->last_step);
+  return m->taken == 1 || m->host->given_steps(m->run) ? step : fmin(step, growth * m->last_step);
 }
 
 /* The first point with mass says why nothing bounds the step; none, and there is nothing to bound.
@@ -257,7 +258,7 @@ static gamut_status next(void *self, double *step)
     return GAMUT_NUMERICS;
   *step = fmin(allowed, left);
   /* the last two steps share what is left, so that none is tiny */
-  if (m->fixed_step == 0.0 && *step < left && left < 2.0 * *step)
+  if (m->fixed_step == 0.0 && !m->host->given_steps(m->run) && *step < left && left < 2.0 * *step)
     *step = 0.5 * left;
   const double ahead = m->speed * *step / m->cell;
   if (!m->removal.sort_due) {
