@@ -11,6 +11,7 @@
  * row by row, xx xy xz yx yy yz zx zy zz. */
 #define FIELD_CATALOGUE(X)                                                                         \
   X(position, GAMUT_AT_POINT, 3, "m", "where the point is")                                        \
+  X(first_position, GAMUT_AT_POINT, 3, "m", "where the point was when the run started")            \
   X(velocity, GAMUT_AT_POINT, 3, "m/s", "velocity of the point")                                   \
   X(mass, GAMUT_AT_POINT, 1, "kg", "mass of the point")                                            \
   X(reference_volume, GAMUT_AT_POINT, 1, "m3", "volume at reference density")                      \

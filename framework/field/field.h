@@ -15,6 +15,7 @@ enum given {
   GIVEN_BY_NOBODY,
   GIVEN_AT_START,  /* a state of the solver: its own tasks may read it */
   GIVEN_BY_SOLVER, /* at the start, or in its own way between steps */
+  GIVEN_BY_CORE,   /* at the start, from other fields */
   GIVEN_BY_BODY    /* one value a body, from the scene */
 };
 

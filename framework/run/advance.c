@@ -32,7 +32,11 @@ gamut_status advance_start(struct gamut_run *run)
     return run->start;
   run->started = true;
   set_uniform_field(run, "time_step", 0.0);
+  set_uniform_field(run, "time", run->time);
   TRY(GUARDED(solver_of(run), run->solver->start(run->solver_self)));
+  for (size_t s = 0; s < run->scene->bodies; s++)
+    given_start(run->set[s]);
+  TRY(given_check(run));
   TRY(host_laws_check(run));
   TRY(start_check(run));
   TRY(stop_check(run));

@@ -276,8 +276,8 @@ static bool make_uniform(struct gamut_run *run)
   for (size_t k = 0; k < fields_components(run->fields); k++) {
     if (fields_of_component(run->fields, k)->where != GAMUT_AT_RUN)
       continue;
-    run->uniform[k] = arena_take(run->arena, "uniform fields", run->chunk * sizeof(double));
-    if (!run->uniform[k])
+    run->uniform_row[k] = arena_take(run->arena, "uniform fields", run->chunk * sizeof(double));
+    if (!run->uniform_row[k])
       return false;
   }
   return true;
@@ -304,9 +304,11 @@ static gamut_status allocate_all(struct gamut_run *run)
   gamut_status status = GAMUT_OK;
   size_t components = fields_components(run->fields);
   run->uniform = calloc(components + 1, sizeof(*run->uniform));
+  run->uniform_row = calloc(components + 1, sizeof(*run->uniform_row));
   run->start_source = calloc(components + 1, 1);
   run->scratch = calloc((size_t)run->threads, sizeof(*run->scratch));
-  bool good = run->uniform && run->start_source && run->scratch && make_uniform(run);
+  bool good =
+      run->uniform && run->uniform_row && run->start_source && run->scratch && make_uniform(run);
   for (int t = 0; good && t < run->threads; t++)
     good = (run->scratch[t] = scratch_new(run->arena, run->fields, run->chunk)) != NULL;
   if (!good)
@@ -332,7 +334,7 @@ static gamut_status assemble(struct gamut_run *run)
   TRY(add_own_material_tasks(run));
   TRY(observe_create(run));
   TRY(frames_create(run));
-  given_mark(run);
+  TRY(given_mark(run));
   TRY(schedule_plan(run->schedule, run->fields, run->scene->bodies, run->trace));
   TRY(effects_check(run));
   TRY(effects_resolve(run));
@@ -432,6 +434,7 @@ void run_free(struct gamut_run *run)
   free(run->set);
   free(run->scratch);
   free(run->uniform);
+  free(run->uniform_row);
   free(run->start_source);
   free(run);
 }

@@ -224,6 +224,7 @@ static gamut_status host_start_material(struct gamut_run *run, struct gamut_set 
   struct point_set *set = set_inside(open);
   struct bound_material *material = run->material[set->material];
   struct gamut_chunk chunk = {.set = open};
+  given_start(set);
   TRY(random_scatter(run, set));
   TRY(material_initial(material, set, &run->scene->body[open->index], run->trace));
   for (size_t slot = 0; slot < open->slots; slot += run->chunk) {
@@ -252,9 +253,10 @@ static gamut_status host_task(struct gamut_run *run, const struct gamut_task *ta
 
 static void host_set_uniform(struct gamut_run *run, struct gamut_field field, double value)
 {
-  double *array = run->uniform[field.first];
+  double *array = run->uniform_row[field.first];
   for (size_t i = 0; array && i < run->chunk; i++)
     array[i] = value;
+  run->uniform[field.first] = array;
 }
 
 static void *host_allocate(struct gamut_run *run, const char *label, size_t bytes)

@@ -111,7 +111,8 @@ struct gamut_run {
   struct leaving *leaving;          /* effects that take points out, a list */
   struct spare spare;               /* where flagged points go in place of a stop */
   struct lane_scratch **scratch;
-  double **uniform;                 /* one a component */
+  double **uniform;                 /* one a component; null until somebody sets it */
+  double **uniform_row;             /* the memory of each */
   unsigned char *start_source;      /* where a chunk's tables lead while a run starts */
 
   struct ledger_line *ledger;
@@ -203,9 +204,12 @@ void formula_want(const struct formula *, struct gamut_run *, size_t set, const 
 gamut_status formula_declare(struct gamut_run *, const char *text);
 
 /* given.c: before the plan says which fields have values that no task writes; fills those of
- * bodies once there are arrays. */
-void given_mark(struct gamut_run *);
+ * bodies once there are arrays, and of a set those that its first positions give. */
+gamut_status given_mark(struct gamut_run *);
 void given_fill(struct gamut_run *);
+void given_start(const struct point_set *);
+/* After the solver's start: numbers of the run, such as cell_size, that are read and not set. */
+gamut_status given_check(struct gamut_run *);
 
 /* wants.c: names to the scheduler the fields that a quantity's argument `field` needs. Leaves in
  * `derived` the formula of the measure of points that it names. */

@@ -92,8 +92,13 @@ static gamut_status resolve(const struct schedule *schedule, struct task *task, 
   }
   if (writers && writers == later && (use->access == GAMUT_READ || use->access == GAMUT_READ_IF))
     use->access = GAMUT_READ_LAST;
-  if (writers || use->access == GAMUT_READ_IF || field->where != GAMUT_AT_POINT)
+  if (writers || field->where != GAMUT_AT_POINT)
     return GAMUT_OK;
+  if (use->access == GAMUT_READ_IF) {
+    if (field->given != GIVEN_BY_NOBODY)
+      use->access = GAMUT_READ_BEGIN;
+    return GAMUT_OK;
+  }
   if (field->given == GIVEN_BY_NOBODY)
     return trace_fail_at(trace, GAMUT_SCENE, known(&task->place), NULL, NULL,
                          "task '%s' of %s reads '%s' (%s), which nothing in this scene provides",

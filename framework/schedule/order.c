@@ -112,21 +112,13 @@ static const struct field *lost_between(const struct task *one, const struct tas
   return NULL;
 }
 
-static bool meet(const struct task *one, const struct task *other, size_t sets)
-{
-  for (size_t s = 0; s < sets; s++)
-    if (task_on_set(one, s) && task_on_set(other, s))
-      return true;
-  return false;
-}
-
 gamut_status plan_conflicts(const struct schedule *schedule, size_t sets, struct trace *trace)
 {
   for (size_t i = 0; i < schedule->tasks; i++)
     for (size_t k = i + 1; k < schedule->tasks; k++) {
       const struct task *one = schedule->task[i], *other = schedule->task[k];
       if (!one->live || !other->live || one->phase != other->phase ||
-          strcmp(one->owner, other->owner) == 0 || !meet(one, other, sets))
+          strcmp(one->owner, other->owner) == 0 || !tasks_meet(one, other, sets))
         continue;
       const struct field *field = lost_between(one, other);
       if (field)

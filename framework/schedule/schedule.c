@@ -88,6 +88,14 @@ bool task_on_set(const struct task *task, size_t set)
   return !task->on_set || task->on_set[set];
 }
 
+bool tasks_meet(const struct task *one, const struct task *other, size_t sets)
+{
+  for (size_t s = 0; s < sets; s++)
+    if (task_on_set(one, s) && task_on_set(other, s))
+      return true;
+  return false;
+}
+
 static gamut_status find_phase(const struct schedule *schedule, const struct gamut_task *task,
                                const char *owner, size_t *phase, struct trace *trace)
 {
@@ -217,6 +225,7 @@ gamut_status schedule_plan(struct schedule *schedule, struct fields *fields, siz
   TRY(plan_conflicts(schedule, sets, trace));
   TRY(plan_shared(schedule, sets, trace));
   TRY(plan_sweeps(schedule, fields, sets, trace));
+  TRY(plan_begins(schedule, sets, trace));
 done:
   return status;
 }

@@ -39,11 +39,15 @@ gamut_status plan_order(struct schedule *, struct trace *);
 gamut_status plan_conflicts(const struct schedule *, size_t sets, struct trace *);
 /* shared.c: who starts a field that several tasks change; refuses what does not go together. */
 gamut_status plan_shared(struct schedule *, size_t sets, struct trace *);
+/* begins.c; after plan_sweeps: refuses who reads the beginning of what is overwritten by then. */
+gamut_status plan_begins(const struct schedule *, size_t sets, struct trace *);
 /* sweeps.c: joins tasks into sweeps, decides what is stored. */
 gamut_status plan_sweeps(struct schedule *, struct fields *, size_t sets, struct trace *);
 
 bool task_writes(const struct task *, const struct field *);
 bool task_on_set(const struct task *, size_t set);
+/* Whether there is a set that both work on. */
+bool tasks_meet(const struct task *, const struct task *, size_t sets);
 /* Whether it uses the field in such a way. */
 bool task_uses_as(const struct task *, const struct field *, bool (*test)(enum gamut_access));
 bool access_reads(enum gamut_access);

@@ -11,14 +11,6 @@ static bool scales_or_lowers(enum gamut_access access)
   return access == GAMUT_SCALE || access == GAMUT_LEAST;
 }
 
-static bool meet(const struct task *one, const struct task *other, size_t sets)
-{
-  for (size_t s = 0; s < sets; s++)
-    if (task_on_set(one, s) && task_on_set(other, s))
-      return true;
-  return false;
-}
-
 /* A product of what was set or added up by others in between depends on who came when. */
 static gamut_status check_mixed(const struct schedule *schedule, const struct task *one,
                                 const struct use *use, size_t sets, struct trace *trace)
@@ -28,7 +20,7 @@ static gamut_status check_mixed(const struct schedule *schedule, const struct ta
     for (size_t u = 0; other->live && u < other->uses; u++) {
       const enum gamut_access access = other->use[u].access;
       if (other->use[u].field == use->field && access_writes(access) && access != use->access &&
-          meet(one, other, sets))
+          tasks_meet(one, other, sets))
         return trace_fail_at(trace, GAMUT_SCENE, one->place.file ? &one->place : NULL, NULL,
                              "one of them, or `bodies:` that they do not share",
                              "task '%s' of %s and task '%s' of %s change '%s' of the same points "

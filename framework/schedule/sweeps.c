@@ -97,8 +97,31 @@ static void decide_storage(const struct schedule *schedule, struct field *field)
   }
   field->used = touching > 0 || wanted(schedule, field);
   field->history = field->history && writes;
+  /* So has one that bodies give, since tasks may write it on other bodies only. */
+  stored |= field->given == GIVEN_BY_BODY;
   field->stored = field->where == GAMUT_AT_POINT && field->used &&
                   (field->history || stored || touching > 1 || wanted(schedule, field));
+}
+
+static bool writes_on(const struct sweep *sweep, const struct field *field, size_t set)
+{
+  struct task *const *group[] = {sweep->open, sweep->chunk, sweep->close};
+  const size_t count[] = {sweep->opens, sweep->chunks, sweep->closes};
+  for (int g = 0; g < 3; g++)
+    for (size_t i = 0; i < count[g]; i++)
+      if (task_on_set(group[g][i], set) && task_writes(group[g][i], field))
+        return true;
+  return false;
+}
+
+/* Whether the field's beginning on this set is gone when the sweep comes. */
+static bool written_before(const struct schedule *schedule, size_t sweep, const struct field *field,
+                           size_t set)
+{
+  for (size_t s = 0; s < sweep; s++)
+    if (writes_on(&schedule->sweep[s], field, set))
+      return true;
+  return false;
 }
 
 /* On one set, or with SIZE_MAX on any. */
@@ -122,7 +145,8 @@ static enum source source_of(const struct schedule *schedule, size_t sweep,
   if (!touch.needed && field->given == GIVEN_BY_NOBODY && !written(schedule, field, set))
     return SOURCE_NONE; /* absent on this set, whatever others have */
   if (field->history)
-    return touch.writes ? SOURCE_FRESH : SOURCE_ARRAY;
+    return touch.writes && !written_before(schedule, sweep, field, set) ? SOURCE_FRESH
+                                                                        : SOURCE_ARRAY;
   if (field->stored)
     return SOURCE_ARRAY;
   if (touch.writes)

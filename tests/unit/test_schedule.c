@@ -64,14 +64,14 @@ static const struct task *task_called(const struct plan *plan, const char *name,
 static void add_step(struct plan *plan)
 {
   add(plan, "scatter", "scatter", GAMUT_PER_CHUNK, true,
-      USES({"stress", GAMUT_READ}, {"velocity", GAMUT_READ_LAST}));
+      USES({"stress", GAMUT_READ}, {"velocity", GAMUT_READ}));
   add(plan, "leave", "scatter", GAMUT_CLOSE_BLOCK, true, NULL, 0);
   add(plan, "material", "material", GAMUT_PER_CHUNK, false,
       USES({"q", GAMUT_READ_IF}, {"stress", GAMUT_READ_BEGIN}, {"stress", GAMUT_WRITE},
            {"heat", GAMUT_WRITE}));
   add(plan, "gather", "gather", GAMUT_PER_CHUNK, true, USES({"velocity", GAMUT_WRITE}));
   add(plan, "load", "gather", GAMUT_OPEN_BLOCK, true, NULL, 0);
-  add(plan, "grid", "grid", GAMUT_ONCE, true, NULL, 0);
+  add(plan, "grid", "grid", GAMUT_ONCE, true, USES({"velocity", GAMUT_READ_LAST}));
   fields_find(plan->fields, "stress")->history = true;
 }
 
@@ -196,6 +196,69 @@ static void test_absent(void)
   unmake(&plan);
 }
 
+/* A task between sends the reader of a state's beginning into another sweep than its writer. */
+static void test_beginnings(void)
+{
+  for (int cut = 0; cut < 2; cut++) {
+    struct plan plan = make();
+    add_step(&plan);
+    if (cut)
+      add(&plan, "between", "after", GAMUT_ONCE, true, NULL, 0);
+    add(&plan, "late", "scatter", GAMUT_PER_CHUNK, true, USES({"stress", GAMUT_READ_BEGIN}));
+    tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) ==
+               (cut ? GAMUT_SCENE : GAMUT_OK),
+           cut ? "the beginning of a state cannot be read when it is overwritten"
+               : "in the sweep of its writer it can");
+    unmake(&plan);
+  }
+  struct plan plan = make();
+  add(&plan, "gather", "gather", GAMUT_PER_CHUNK, true, USES({"velocity", GAMUT_WRITE}));
+  add(&plan, "late", "after", GAMUT_PER_CHUNK, true, USES({"velocity", GAMUT_READ_BEGIN}));
+  tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_SCENE,
+         "nor that of a field without history once it is written");
+  unmake(&plan);
+  plan = make();
+  add_step(&plan);
+  add(&plan, "between", "after", GAMUT_ONCE, true, NULL, 0);
+  add(&plan, "change", "scatter", GAMUT_PER_CHUNK, true,
+      USES({"stress", GAMUT_READ}, {"stress", GAMUT_WRITE}));
+  schedule_plan(plan.schedule, plan.fields, 1, plan.trace);
+  const size_t stress = fields_find(plan.fields, "stress")->handle.first;
+  tap_ok(schedule_sweep(plan.schedule, schedule_sweeps(plan.schedule) - 1)->source[stress] ==
+             SOURCE_ARRAY,
+         "who changes a state in a later sweep finds what the first one left");
+  unmake(&plan);
+}
+
+/* What a body gives is there for who takes it only where it is, and where others write it. */
+static void test_given(void)
+{
+  static const bool on_set[] = {true, false};
+  for (int heated = 0; heated < 2; heated++) {
+    struct plan plan = make();
+    const struct gamut_use write = {"temperature", GAMUT_WRITE};
+    const struct gamut_task heating = {.name = "heat",
+                                       .phase = "gather",
+                                       .uses = &write,
+                                       .use_count = 1,
+                                       .essential = true,
+                                       .run = nothing};
+    struct field *temperature = fields_find(plan.fields, "temperature");
+    temperature->given = GIVEN_BY_BODY;
+    if (heated)
+      schedule_add(plan.schedule, "test", NULL, &heating, plan.fields, SIZE_MAX, on_set,
+                   plan.trace);
+    add(&plan, "look", "material", GAMUT_PER_CHUNK, true, USES({"temperature", GAMUT_READ_IF}));
+    schedule_plan(plan.schedule, plan.fields, 2, plan.trace);
+    const unsigned char *source = schedule_sweep(plan.schedule, 0)->source;
+    tap_ok(temperature->stored &&
+               source[fields_components(plan.fields) + temperature->handle.first] == SOURCE_ARRAY,
+           heated ? "temperature that is written on one body is the other's own there"
+                  : "temperature is there for who reads it only if it is");
+    unmake(&plan);
+  }
+}
+
 static void test_offers(void)
 {
   struct plan plan = make();
@@ -238,6 +301,8 @@ int main(void)
   test_read_of_what_comes_later();
   test_shared();
   test_absent();
+  test_beginnings();
+  test_given();
   test_offers();
   test_faults();
   return tap_done();

@@ -78,7 +78,9 @@ static inline double *gamut_end(const struct gamut_chunk *c, struct gamut_field 
 }
 
 enum gamut_access {
-  GAMUT_READ_BEGIN, /* the value at the beginning of the step (or the only one) */
+  GAMUT_READ_BEGIN, /* the value at the beginning of the step (or the only one); refused where it
+                       is overwritten before the task runs: of a state from the sweep on that comes
+                       after its writer's */
   GAMUT_READ,       /* the value at the end, after every task of this step that writes it; where all
                        of these come in later phases, what the step before left */
   GAMUT_READ_IF,    /* as GAMUT_READ, if somebody writes it; else the chunk's pointer is null */

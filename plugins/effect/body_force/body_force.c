@@ -13,18 +13,6 @@ struct body_force_effect {
   struct gamut_field mass, force, position, first;
 };
 
-/* Where points were at the start is taken when the first step begins, and then carried along. */
-static void keep_first(const struct body_force_effect *effect, const struct gamut_chunk *chunk)
-{
-  const bool fresh = GAMUT_HOST(effect->run)->step(effect->run) == 0;
-  for (unsigned k = 0; k < 3; k++) {
-    const double *from = gamut_begin(chunk, fresh ? effect->position : effect->first, k);
-    double *to = gamut_end(chunk, effect->first, k);
-    for (size_t i = 0; i < chunk->count; i++)
-      to[i] = from[i];
-  }
-}
-
 static gamut_status push(void *self, const struct gamut_chunk *chunk)
 {
   const struct body_force_effect *effect = self;
@@ -32,13 +20,11 @@ static gamut_status push(void *self, const struct gamut_chunk *chunk)
   const double *mass = gamut_begin(chunk, effect->mass, 0);
   double at[VARIABLES] = {0};
   at[TIME] = gamut_time(effect->run) + gamut_time_step(effect->run);
-  if (effect->from_first)
-    keep_first(effect, chunk);
   for (size_t i = 0; i < chunk->count; i++) {
     for (unsigned k = 0; k < 3; k++) {
       at[PLACE + k] = gamut_end(chunk, effect->position, k)[i];
       if (effect->from_first)
-        at[FIRST_PLACE + k] = gamut_end(chunk, effect->first, k)[i];
+        at[FIRST_PLACE + k] = gamut_begin(chunk, effect->first, k)[i];
     }
     for (unsigned k = 0; k < 3; k++)
       if (effect->formula[k])
@@ -50,15 +36,15 @@ static gamut_status push(void *self, const struct gamut_chunk *chunk)
 
 static gamut_status add_task(struct gamut_run *run, struct body_force_effect *effect)
 {
-  static const struct gamut_use uses[] = {
-      {"mass", GAMUT_READ_BEGIN},      {"external_force", GAMUT_ADD},
-      {"position", GAMUT_READ},        {"position", GAMUT_READ_BEGIN},
-      {"first_position", GAMUT_READ_BEGIN}, {"first_position", GAMUT_WRITE}};
+  static const struct gamut_use uses[] = {{"mass", GAMUT_READ_BEGIN},
+                                          {"external_force", GAMUT_ADD},
+                                          {"position", GAMUT_READ},
+                                          {"first_position", GAMUT_READ_BEGIN}};
   const struct gamut_task task = {.name = "body force",
                                   .phase = "forces",
                                   .extent = GAMUT_PER_CHUNK,
                                   .uses = uses,
-                                  .use_count = effect->from_first ? 6 : 3,
+                                  .use_count = effect->from_first ? 4 : 3,
                                   .run = push,
                                   .self = effect};
   gamut_status status = gamut_field_named(run, "mass", &effect->mass);

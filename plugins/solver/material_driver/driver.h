@@ -70,7 +70,7 @@ struct driver {
   size_t points;
   struct point *point; /* one a body */
   struct gamut_set **set;
-  struct gamut_field velocity_gradient, stress, energy;
+  struct gamut_field velocity_gradient, stress, energy, cell_size;
   double *internal, *supplied, *lost; /* ledger */
 };
 

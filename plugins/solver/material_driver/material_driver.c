@@ -41,6 +41,8 @@ static gamut_status name_fields(struct driver *driver)
     status = gamut_field_named(run, "stress", &driver->stress);
   if (status == GAMUT_OK)
     status = gamut_field_named(run, "energy", &driver->energy);
+  if (status == GAMUT_OK)
+    status = gamut_field_named(run, "cell_size", &driver->cell_size);
   return status;
 }
 
@@ -124,6 +126,8 @@ static gamut_status start(void *self)
   for (uint32_t i = 0; i < GAMUT_LANES; i++)
     source[i] = i ? UINT32_C(0x80000000) : 0;
   *driver->internal = 0.0;
+  if (gamut_given(driver->values, "cell"))
+    GAMUT_HOST(run)->set_uniform(run, driver->cell_size, gamut_real(driver->values, "cell"));
   for (size_t i = 0; i < driver->points; i++) {
     gamut_status status =
         GAMUT_HOST(run)->arrange(run, driver->set[i], source, GAMUT_LANES, first, 1);
