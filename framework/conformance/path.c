@@ -59,6 +59,7 @@ bool path_new(struct path *path, struct suite *suite)
   path->function = kernel_operation(suite->specimen.kernel, 0);
   path->gradient = slot_named(proof, SLOT_INPUT, "velocity_gradient");
   path->step = slot_named(proof, SLOT_INPUT, "time_step");
+  path->deformation = slot_named(proof, SLOT_INPUT, "deformation_gradient");
   path->stress = slot_named(proof, SLOT_STATE_END, "stress");
   path->begin = path->stress - 6;
   return path->function && path->gradient != SIZE_MAX && path->stress != SIZE_MAX;
@@ -94,6 +95,7 @@ static void path_reset(struct path *path)
   path->least_growth = path->least_dissipation = INFINITY;
   path->work = path->gross = path->dissipated = path->flow = 0;
   path->ratio = 1;
+  memcpy(path->F, matrix_unity, sizeof path->F);
 }
 
 /* Work of a stress over an increment of the deformation, per reference volume: J stress : d. */
@@ -143,6 +145,9 @@ void path_advance(struct path *path, const matrix f, double step)
     *path_value(path, path->gradient + k) = (f[k] - (k % 4 == 0)) / step;
   if (path->step != SIZE_MAX)
     *path_value(path, path->step) = step;
+  matrix_multiply(f, path->F, path->F);
+  for (size_t k = 0; path->deformation != SIZE_MAX && k < 9; k++)
+    *path_value(path, path->deformation + k) = path->F[k];
   bench_call(path->suite->bench, path->function, 1);
   add_work(path, before, f, path->ratio);
   path->ratio *= matrix_determinant(f);

@@ -21,7 +21,8 @@ struct path {
   struct suite *suite;
   struct block *block;
   kernel_function function;
-  size_t gradient, step, stress, begin; /* slots */
+  size_t gradient, step, deformation, stress, begin; /* slots */
+  matrix F;
   double ratio; /* of the volume, by the deformation */
   bool stopped;
   double least_growth, least_dissipation; /* of plastic strain and of its work, over all steps */

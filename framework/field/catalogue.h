@@ -18,6 +18,8 @@
   X(volume_ratio, GAMUT_AT_POINT, 1, "1", "volume over reference volume, J")                       \
   X(velocity_gradient, GAMUT_AT_POINT, 9, "1/s",                                                   \
     "L at the beginning of the step; the step's deformation is I + time_step L")                   \
+  X(deformation_gradient, GAMUT_AT_POINT, 9, "1",                                                  \
+    "F, from the identity on; (I + time_step L) F at the end of a step, so that det F is J")       \
   X(stress, GAMUT_AT_POINT, 6, "Pa", "Cauchy stress with viscous pressure, tension positive")      \
   X(plastic_strain, GAMUT_AT_POINT, 1, "1", "equivalent plastic strain")                           \
   X(plastic_strain_rate, GAMUT_AT_POINT, 1, "1/s", "rate of equivalent plastic strain")            \

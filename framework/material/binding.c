@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/array.h"
-#include "base/array.h"
 #include "field/catalogue.h"
 #include "material/material_private.h"
 #include "registry/guard.h"
@@ -203,6 +202,8 @@ gamut_status material_new(const struct material *material, struct registry *regi
   if (wants_law(material->elasticity.descriptor, "eos"))
     TRY(make_kernel(bound, EOS, &material->eos, registry, fields, trace));
   TRY(check_laws(bound, trace));
+  TRY(deformation_declare(fields, trace));
+  bound->deformation.gradient = SIZE_MAX;
   bound->temperature = component_or_none(fields, "temperature");
   bound->plastic_strain = component_or_none(fields, "plastic_strain");
   bound->step_factor = component_or_none(fields, "step_factor");
@@ -247,14 +248,20 @@ const struct gamut_use *material_uses(const struct bound_material *bound, size_t
   return bound->use;
 }
 
-const struct gamut_use *material_offers(const struct bound_material *bound, size_t *count)
+const struct gamut_use *material_offers(const struct bound_material *bound, size_t number,
+                                        size_t *count)
 {
-  static const struct gamut_use factor = {"flow_stress_factor", GAMUT_READ_IF};
-  *count = bound->kernel[STRENGTH] ? 1 : 0;
-  return &factor;
+  static const struct gamut_use deformation[] = {{"deformation_gradient", GAMUT_WRITE},
+                                                 {"deformation_gradient", GAMUT_READ_BEGIN},
+                                                 {"velocity_gradient", GAMUT_READ}};
+  static const struct gamut_use factor[] = {{"flow_stress_factor", GAMUT_READ_IF}};
+  const bool flows = bound->kernel[STRENGTH] != NULL;
+  *count = number == 0 ? ARRAY_SIZE(deformation) : ARRAY_SIZE(factor);
+  return number == 0 ? deformation : number == 1 && flows ? factor : NULL;
 }
 
-void material_resolve(struct bound_material *bound, const struct task *task)
+void material_resolve(struct bound_material *bound, const struct task *task,
+                      const struct fields *fields)
 {
   for (int role = 0; role < ROLES; role++)
     if (bound->kernel[role])
@@ -262,6 +269,7 @@ void material_resolve(struct bound_material *bound, const struct task *task)
   for (size_t u = 0; bound->kernel[STRENGTH] && u < task->uses; u++)
     if (strcmp(task->use[u].field->name, "flow_stress_factor") == 0)
       bound->flow_stress_factor = task->use[u].field->handle.first;
+  deformation_resolve(bound, task, fields);
 }
 
 size_t material_bad_factor(const struct bound_material *bound, const struct gamut_chunk *chunk,
@@ -316,6 +324,7 @@ static void call(const struct bound_material *bound, kernel_function function, s
 void material_update(struct bound_material *bound, const struct gamut_chunk *chunk)
 {
   struct thread_state *state = &bound->per_thread[chunk->thread];
+  deformation_update(bound, chunk);
   follow(bound, state, chunk);
   call(bound, bound->kernel[ELASTICITY]->main, state->image);
 }

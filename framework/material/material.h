@@ -73,10 +73,12 @@ gamut_status material_new(const struct material *, struct registry *, struct are
 void material_free(struct bound_material *);
 /* What the material's task reads and writes; for the scheduler. Borrowed. */
 const struct gamut_use *material_uses(const struct bound_material *, size_t *count);
-/* What the task reads as well where the field is there; see schedule_offer. Borrowed. */
-const struct gamut_use *material_offers(const struct bound_material *, size_t *count);
+/* What the task offers to read and write, by number; null past the last. See schedule_offer.
+ * Borrowed. */
+const struct gamut_use *material_offers(const struct bound_material *, size_t number,
+                                        size_t *count);
 /* After planning: what the task of the material on one set reads where, by what the plan says. */
-void material_resolve(struct bound_material *, const struct task *);
+void material_resolve(struct bound_material *, const struct task *, const struct fields *);
 /* The first point of a chunk whose flow_stress_factor is no factor (negative, no number), and that
  * number; SIZE_MAX: all are. */
 size_t material_bad_factor(const struct bound_material *, const struct gamut_chunk *,

@@ -28,6 +28,14 @@ struct bound_material {
   size_t temperature, plastic_strain; /* components that fill a law's arguments; SIZE_MAX: none */
   size_t step_factor;                 /* component, where the elasticity gives one */
   size_t flow_stress_factor;          /* component, where an effect writes it; SIZE_MAX: none */
+  struct deformation {                /* components; SIZE_MAX: nobody reads it */
+    size_t gradient, velocity_gradient, time_step;
+  } deformation;
 };
+
+/* deformation.c: F at the end of the step where somebody reads it. */
+gamut_status deformation_declare(struct fields *, struct trace *);
+void deformation_resolve(struct bound_material *, const struct task *, const struct fields *);
+void deformation_update(const struct bound_material *, const struct gamut_chunk *);
 
 #endif

@@ -171,10 +171,10 @@ static gamut_status add_material_task(struct gamut_run *run, const char *owner,
   gamut_status status = schedule_add(run->schedule, owner, place_of_owner(run), &whole, run->fields,
                                      set, NULL, run->trace);
   free(all);
-  if (status == GAMUT_OK) {
-    const struct gamut_use *offer = material_offers(run->material[run->set[set]->material], &count);
+  const struct bound_material *material = run->material[run->set[set]->material];
+  const struct gamut_use *offer;
+  for (size_t i = 0; status == GAMUT_OK && (offer = material_offers(material, i, &count)); i++)
     schedule_offer(run->schedule, offer, count);
-  }
   return status;
 }
 
@@ -258,7 +258,7 @@ static void resolve_materials(struct gamut_run *run)
   for (size_t i = 0; i < schedule_tasks(run->schedule); i++) {
     const struct task *task = schedule_task(run->schedule, i);
     if (task->live && task->run == run_material_job)
-      material_resolve(run->material[run->set[task->only_set]->material], task);
+      material_resolve(run->material[run->set[task->only_set]->material], task, run->fields);
   }
 }
 

@@ -41,6 +41,9 @@ gamut_status given_mark(struct gamut_run *run)
 {
   for (size_t f = 0; f < fields_count(run->fields); f++)
     fields_at(run->fields, f)->given = given_by(run, fields_at(run->fields, f));
+  struct field *deformation = fields_find(run->fields, "deformation_gradient");
+  if (deformation)
+    deformation->history = true;
   const struct field *first = fields_find(run->fields, "first_position");
   struct gamut_field unused;
   if (!first || first->given != GIVEN_BY_CORE)
@@ -64,14 +67,25 @@ void given_start(const struct point_set *set)
   }
 }
 
-/* A solver without materials starts none, and their temperature is the body's all the same. */
+static void fill(const struct gamut_run *run, const struct field *field, unsigned component,
+                 size_t set, double value)
+{
+  double *array = set_stored(run->set[set], field->handle, component);
+  for (size_t i = 0; array && i < run->set[set]->capacity; i++)
+    array[i] = value;
+}
+
+/* A solver without materials starts none, and their temperature is the body's all the same. A
+ * deformation begins with none. */
 void given_fill(struct gamut_run *run)
 {
-  const struct field *field = fields_find(run->fields, "temperature");
-  for (size_t s = 0; field && s < run->scene->bodies; s++) {
-    double *array = set_stored(run->set[s], field->handle, 0);
-    for (size_t i = 0; array && i < run->set[s]->capacity; i++)
-      array[i] = run->scene->body[s].temperature;
+  const struct field *temperature = fields_find(run->fields, "temperature");
+  const struct field *deformation = fields_find(run->fields, "deformation_gradient");
+  for (size_t s = 0; s < run->scene->bodies; s++) {
+    if (temperature)
+      fill(run, temperature, 0, s, run->scene->body[s].temperature);
+    for (unsigned k = 0; deformation && k < 9; k += 4)
+      fill(run, deformation, k, s, 1.0);
   }
 }
 

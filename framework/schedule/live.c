@@ -75,6 +75,30 @@ static const struct place *known(const struct place *place)
   return place->file ? place : NULL;
 }
 
+static bool is_sought(const struct schedule *schedule, const struct field *field)
+{
+  for (size_t w = 0; w < schedule->wants; w++)
+    if (schedule->want[w].field == field)
+      return true;
+  for (size_t i = 0; i < schedule->tasks; i++) {
+    const struct task *task = schedule->task[i];
+    for (size_t u = 0; task->live && u < task->uses; u++)
+      if (task->use[u].field == field && !task->use[u].offered && access_reads(task->use[u].access))
+        return true;
+  }
+  return false;
+}
+
+/* Nothing is worked out that nobody reads. */
+static void drop_offers(const struct schedule *schedule, struct task *task)
+{
+  size_t kept = 0;
+  for (size_t u = 0; u < task->uses; u++)
+    if (!task->use[u].offered || is_sought(schedule, task->use[u].offered))
+      task->use[kept++] = task->use[u];
+  task->uses = kept;
+}
+
 /* What a read means now that the live writers are known. */
 static gamut_status resolve(const struct schedule *schedule, struct task *task, struct use *use,
                             struct trace *trace)
@@ -154,6 +178,8 @@ gamut_status plan_liveness(struct schedule *schedule, struct trace *trace)
       if (schedule->task[i]->live)
         more |= follow(schedule, schedule->task[i]);
   }
+  for (size_t i = 0; i < schedule->tasks; i++)
+    drop_offers(schedule, schedule->task[i]);
   for (size_t i = 0; i < schedule->tasks; i++) {
     struct task *task = schedule->task[i];
     char text[256];

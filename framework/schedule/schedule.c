@@ -23,6 +23,7 @@ static void task_free(struct task *task)
   for (size_t i = 0; i < task->clears; i++)
     free(task->clear[i].on_set);
   free(task->clear);
+  free(task->offer);
   free(task->use);
   free(task->why);
   free(task);
@@ -128,7 +129,8 @@ static gamut_status copy_uses(struct task *to, const struct gamut_task *from, st
                         "task '%s' of %s shares the field '%s' with others: only a task "
                         "GAMUT_PER_CHUNK can add, scale or lower",
                         from->name, to->owner, field->name);
-    to->use[to->uses++] = (struct use){field, access, access == GAMUT_READ_IF};
+    to->use[to->uses++] =
+        (struct use){.field = field, .access = access, .optional = access == GAMUT_READ_IF};
   }
   return GAMUT_OK;
 }
@@ -168,23 +170,37 @@ done:
 void schedule_offer(struct schedule *schedule, const struct gamut_use *offer, size_t count)
 {
   struct task *task = schedule->task[schedule->tasks - 1];
-  task->offer = offer;
-  task->offers = count;
+  struct offer *grown = realloc(task->offer, (task->offers + 1) * sizeof *grown);
+  if (!grown)
+    memory_ended();
+  task->offer = grown;
+  grown[task->offers++] = (struct offer){offer, count};
 }
 
 /* Offers become uses where the field is there. */
-static void settle_offers(struct task *task, const struct fields *fields)
+static void settle_offer(struct task *task, const struct offer *offer, const struct fields *fields)
 {
-  struct use *grown = realloc(task->use, (task->uses + task->offers + 1) * sizeof *grown);
+  const struct field *first = fields_find(fields, offer->use[0].field);
+  if (!first || first->where != GAMUT_AT_POINT)
+    return;
+  struct use *grown = realloc(task->use, (task->uses + offer->count) * sizeof *grown);
   if (!grown)
     memory_ended();
   task->use = grown;
-  for (size_t i = 0; i < task->offers; i++) {
-    struct field *field = fields_find(fields, task->offer[i].field);
-    const enum gamut_access access = task->offer[i].access;
-    if (field && field->where == GAMUT_AT_POINT)
-      task->use[task->uses++] = (struct use){field, access, access == GAMUT_READ_IF};
+  for (size_t i = 0; i < offer->count; i++) {
+    const enum gamut_access access = offer->use[i].access;
+    task->use[task->uses++] =
+        (struct use){.field = fields_find(fields, offer->use[i].field),
+                     .access = access,
+                     .optional = access == GAMUT_READ_IF,
+                     .offered = access_writes(offer->use[0].access) ? first : NULL};
   }
+}
+
+static void settle_offers(struct task *task, const struct fields *fields)
+{
+  for (size_t i = 0; i < task->offers; i++)
+    settle_offer(task, &task->offer[i], fields);
   task->offers = 0;
 }
 

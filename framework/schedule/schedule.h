@@ -19,6 +19,7 @@ struct task {
     struct field *field;
     enum gamut_access access;
     bool optional; /* reads it only where somebody writes it */
+    const struct field *offered; /* there for readers of this field; null: the task's own */
   } *use;
   size_t uses;
   struct clear {            /* what it is the first to share in a step */
@@ -28,7 +29,10 @@ struct task {
     bool early;             /* set before the first task of its sweep, not right before it */
   } *clear;
   size_t clears;
-  const struct gamut_use *offer; /* borrowed; uses if anybody else names the field, see below */
+  struct offer {
+    const struct gamut_use *use;
+    size_t count;
+  } * offer; /* see schedule_offer */
   size_t offers;
   bool essential, live;
   char *why;                  /* why it is live or not, for explain */
@@ -54,8 +58,9 @@ void schedule_free(struct schedule *);
 gamut_status schedule_add(struct schedule *, const char *owner, const struct place *place,
                           const struct gamut_task *, struct fields *, size_t only_set,
                           const bool *on_set, struct trace *);
-/* What the task that was added last reads or writes as well if a field of that name is there when
- * the plan is made: of READ_IF and WRITE at points. Nothing is declared for it. Borrowed. */
+/* What the task that was added last reads and writes as well if the field of the first use is there
+ * when the plan is made; where that use writes it, if a live task reads it or somebody wants it.
+ * Fields at points. Nothing is declared for it. Borrowed. */
 void schedule_offer(struct schedule *, const struct gamut_use *, size_t count);
 /* Says whose code the task that was added last is. Borrowed. */
 void schedule_plugin(struct schedule *, const char *plugin);

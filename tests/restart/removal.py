@@ -18,6 +18,7 @@ CASES = {
                         "outputs={every: 10 us, fields: [stress]}"], "40 us"),
     "erosion": (BAR, ["solver.cell=0.635 mm", "solver.end=20 us", "effects.foot={model: erosion, "
                       "plastic_strain: 0.5, flagged: true, lost: true, most: 0.5}",
+                      "outputs={every: 4 us, fields: [deformation_gradient, first_position]}",
                       FOLLOWED % ("bar", "[0.1 mm, 0.1 mm]")], "12 us"),
     "erosion, usf and gimp": (BAR, ["solver.cell=0.635 mm", "solver.end=20 us",
                                     "solver.shape=gimp", "solver.stress_update=usf",

@@ -259,17 +259,32 @@ static void test_given(void)
   }
 }
 
+static bool task_writes_field(const struct task *task, const char *field)
+{
+  for (size_t u = 0; u < task->uses; u++)
+    if (task->use[u].access == GAMUT_WRITE && strcmp(task->use[u].field->name, field) == 0)
+      return true;
+  return false;
+}
+
 static void test_offers(void)
 {
   struct plan plan = make();
-  static const struct gamut_use offers[] = {{"heat", GAMUT_WRITE}, {"unheard_of", GAMUT_READ_IF}};
+  static const struct gamut_use heat[] = {{"heat", GAMUT_WRITE}, {"velocity", GAMUT_READ}};
+  static const struct gamut_use unheard = {"unheard_of", GAMUT_READ_IF};
+  static const struct gamut_use q = {"q", GAMUT_WRITE};
   size_t index;
   add(&plan, "material", "material", GAMUT_PER_CHUNK, true, USES({"stress", GAMUT_WRITE}));
-  schedule_offer(plan.schedule, offers, 2);
+  schedule_offer(plan.schedule, heat, 2);
+  schedule_offer(plan.schedule, &unheard, 1);
+  schedule_offer(plan.schedule, &q, 1);
+  add(&plan, "gather", "gather", GAMUT_PER_CHUNK, true, USES({"velocity", GAMUT_WRITE}));
   schedule_want(plan.schedule, fields_find(plan.fields, "heat"), SIZE_MAX, "outputs", NULL, false);
-  tap_ok(schedule_plan(plan.schedule, plan.fields, 1, plan.trace) == GAMUT_OK &&
-             task_called(&plan, "material", &index)->uses == 2,
-         "an offer is taken where its field is there");
+  gamut_status status = schedule_plan(plan.schedule, plan.fields, 1, plan.trace);
+  const struct task *task = task_called(&plan, "material", &index);
+  tap_ok(status == GAMUT_OK && task_writes_field(task, "heat"),
+         "an offer is taken where its field is sought");
+  tap_ok(task->uses == 3 && !task_writes_field(task, "q"), "and not where nobody reads it");
   unmake(&plan);
 }
 

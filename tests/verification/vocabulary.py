@@ -1,5 +1,8 @@
-"""Fields that are there for everybody: first_position, temperature, cell_size."""
+"""Fields that are there for everybody: first_position, temperature, cell_size,
+deformation_gradient."""
 import json
+import math
+import subprocess
 
 import made
 import scenes
@@ -89,7 +92,76 @@ def at_a_point():
                   "a solver without places has no first ones, and says so", [done.stderr])
 
 
+# ---- the deformation gradient -------------------------------------------------------------------
+
+FULL = [a + b for a in "xyz" for b in "xyz"]
+F = [f"deformation_gradient_{c}" for c in FULL]
+
+
+def determinant(f):
+    return (f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6])
+            + f[2] * (f[3] * f[7] - f[4] * f[6]))
+
+
+def driven(title, control, due, steps=50):
+    run = drive(CARD, control, 1e-3, steps, final=[*F, "volume_ratio"])
+    off = max(abs(run[name] - wanted) for name, wanted in zip(F, due))
+    scenes.below(f"{title}: F against its closed form", off, 1e-13)
+    scenes.below(f"{title}: det F over the volume ratio - 1",
+                 abs(determinant([run[name] for name in F]) / run["volume_ratio"] - 1.0), 1e-13)
+
+
+def led():
+    driven("stretch", {"xx": {"log_strain": 0.3}, "yy": {"log_strain": -0.1}},
+           [math.exp(0.3), 0, 0, 0, math.exp(-0.1), 0, 0, 0, 1])
+    driven("simple shear", {"xy": {"velocity_gradient": "300 1/s"}}, [1, 0.3, 0, 0, 1, 0, 0, 0, 1])
+    angle = 2.5
+    driven("rigid rotation", {"xy": {"velocity_gradient": f"{-angle * 1e3} 1/s"},
+                              "yx": {"velocity_gradient": f"{angle * 1e3} 1/s"}},
+           [math.cos(angle), -math.sin(angle), 0, math.sin(angle), math.cos(angle), 0, 0, 0, 1])
+
+
+def impact(geometry, wanted):
+    place = ["1 mm", "0.3 mm"]
+    at = {"body": "block", "point": place, "follow": "material"}
+    scene = {"gamut": 1,
+             "solver": {"model": "material_point_method", "geometry": geometry, "cell": "0.5 mm",
+                        "end": "6 us"},
+             "materials": {"metal": CARD},
+             "bodies": {"block": {"material": "metal", "velocity": ["0 m/s", "-200 m/s"],
+                                  "shape": {"box": {"min": ["0 mm", "0 mm"],
+                                                    "max": ["4 mm", "4 mm"]}}}},
+             "effects": {"wall": {"model": "rigid_wall",
+                                  "plane": {"point": ["0 mm", "0 mm"], "normal": [0, 1]}}},
+             "quantities": {name: {"measure": name, "at": at, "reduce": "at end"}
+                            for name in wanted}}
+    return scenes.written(f"impact_{geometry}", json.dumps(scene))
+
+
+def kept_fields(name):
+    done = subprocess.run([scenes.GAMUT, "explain", name, "--json"], capture_output=True,
+                          text=True, check=True, stdin=subprocess.DEVNULL)
+    fields = json.loads(done.stdout)["fields"]
+    return {field["name"] for field in fields if field["kept"] != "unused"}
+
+
+def on_a_wall():
+    for geometry in ("plane_strain", "axisymmetric"):
+        run = scenes.run(impact(geometry, [*F, "volume_ratio"]))
+        f = [run.value(name) for name in F]
+        scenes.note(f"{geometry}: F {[round(x, 4) for x in f]}")
+        scenes.below(f"{geometry}: det F over the volume ratio - 1",
+                     abs(determinant(f) / run.value("volume_ratio") - 1.0), 1e-13)
+        scenes.drop(run)
+    bare, read = (kept_fields(impact("plane_strain", wanted))
+                  for wanted in (["volume_ratio"], ["volume_ratio", F[0]]))
+    scenes.report(read - bare == {"deformation_gradient"},
+                  f"it is worked out only where it is read: {read - bare}")
+
+
 made.verified("effect/witness")
+led()
+on_a_wall()
 on_a_grid()
 at_a_point()
 scenes.done()
