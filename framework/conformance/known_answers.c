@@ -221,13 +221,13 @@ static void compare_derivatives(struct answer *a)
 static gamut_status make(struct answer *a, struct trace *trace)
 {
   gamut_status status = GAMUT_OK;
-  struct settings settings = {0};
+  struct settings settings = {.folder = a->proof->descriptor->folder};
   const struct tree *parameters = tree_get(a->test, "parameters");
   const struct tree *density = tree_at(a->test, "at.reference_density");
   double rho = density ? number_of(a, density, "kg/m3") : 1000;
   for (size_t i = 0; parameters && i < parameters->children; i++)
-    TRY(settings_read(&settings, a->proof->descriptor, parameters->child[i]->key,
-                      parameters->child[i]->text, "parameters", a->proof->units, trace));
+    TRY(settings_node(&settings, a->proof->descriptor, parameters->child[i], "parameters",
+                      a->proof->units, trace));
   TRY(specimen_values(&a->specimen, a->proof->descriptor, &settings, "parameters", a->proof->units,
                       trace));
   TRY(specimen_open(&a->specimen, a->proof->registry, 1, rho, trace));

@@ -9,8 +9,7 @@ static gamut_status read_law(struct settings *settings, const struct descriptor 
   gamut_status status = GAMUT_OK;
   for (size_t i = 0; i < node->children; i++)
     if (strcmp(node->child[i]->key, "model") != 0)
-      TRY(settings_read(settings, law, node->child[i]->key, node->child[i]->text, "laws", units,
-                        trace));
+      TRY(settings_node(settings, law, node->child[i], "laws", units, trace));
 done:
   return status;
 }
@@ -33,7 +32,7 @@ static gamut_status law_new(struct specimen *specimen, struct proof *proof, enum
                             struct trace *trace)
 {
   gamut_status status = GAMUT_OK;
-  struct settings settings = {0};
+  struct settings settings = {.folder = proof->descriptor->folder};
   const struct tree *model = node ? tree_get(node, "model") : NULL;
   const char *name = model ? model->text : kind == GAMUT_KIND_EOS ? "linear" : "von_mises";
   if (model && strcmp(name, "absent") == 0)

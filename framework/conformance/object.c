@@ -54,26 +54,28 @@ static bool is_law(enum gamut_kind kind)
   return kind == GAMUT_KIND_EOS || kind == GAMUT_KIND_STRENGTH || kind == GAMUT_KIND_ELASTICITY;
 }
 
-static bool may_call(enum gamut_kind kind, const char *name)
+struct look {
+  enum gamut_kind kind;
+  bool prepares, instrumented;
+  size_t imports, variables;
+  char import[256], variable[256];
+};
+
+static bool may_call(const struct look *look, const char *name)
 {
+  const enum gamut_kind kind = look->kind;
   const enum library library = library_of(name);
   if (begins_with_one(of_state, name))
     return false;
   if (library == LIBM || begins_with_one(of_compiler, name) || begins_with_one(of_tools, name))
     return true;
-  if (is_law(kind))
+  if (is_law(kind) && !look->prepares)
     return false;
   if (begins_with_one(of_create, name))
     return true;
-  return kind != GAMUT_KIND_EFFECT && (begins_with_one(of_openmp, name) || library != LIBC);
+  return !is_law(kind) && kind != GAMUT_KIND_EFFECT &&
+         (begins_with_one(of_openmp, name) || library != LIBC);
 }
-
-struct look {
-  enum gamut_kind kind;
-  bool instrumented;
-  size_t imports, variables;
-  char import[256], variable[256];
-};
 
 static void append(char *text, size_t size, const char *name)
 {
@@ -86,7 +88,7 @@ static void take_import(void *self, const char *name)
 {
   struct look *look = self;
   look->instrumented |= begins_with_one(of_tools, name);
-  if (may_call(look->kind, name))
+  if (may_call(look, name))
     return;
   look->imports++;
   append(look->import, sizeof look->import, name);
@@ -102,7 +104,7 @@ static void take_variable(void *self, const char *name)
 void prove_object(struct proof *proof)
 {
   struct checks *checks = &proof->checks;
-  struct look look = {.kind = proof->descriptor->kind};
+  struct look look = {.kind = proof->descriptor->kind, .prepares = proof->descriptor->prepare};
   struct elf_file elf;
   char file[4096];
   check_begin(checks, "what the shared object calls");

@@ -138,9 +138,10 @@ bool find_base(const struct descriptor *descriptor, const struct tree *known,
     const struct tree *parameters = tree_get(tests->child[i], "parameters");
     struct trace *trace = trace_new();
     bool fine = parameters != NULL;
+    settings->folder = descriptor->folder;
     for (size_t k = 0; fine && k < parameters->children; k++)
-      fine = settings_read(settings, descriptor, parameters->child[k]->key,
-                           parameters->child[k]->text, "known answers", units, trace) == GAMUT_OK;
+      fine = settings_node(settings, descriptor, parameters->child[k], "known answers", units,
+                           trace) == GAMUT_OK;
     trace_free(trace);
     if (fine && accepted(descriptor, settings, units, why, size))
       return true;

@@ -1,5 +1,6 @@
 #include "conformance/specimen.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,6 +36,7 @@ void settings_put(struct settings *settings, const char *name, const char *text)
 
 void settings_copy(struct settings *settings, const struct settings *from)
 {
+  settings->folder = from->folder;
   for (size_t i = 0; i < from->count; i++)
     settings_put(settings, from->item[i].name, from->item[i].text);
 }
@@ -135,11 +137,47 @@ gamut_status settings_read(struct settings *settings, const struct descriptor *d
     return unknown_parameter(descriptor, name, what, trace);
   if (parameter->type == VALUE_REAL)
     return read_number(settings, parameter, text, what, units, trace);
-  if (parameter->type == VALUE_TEXT || parameter->type == VALUE_BODY)
+  if (parameter->type == VALUE_TEXT || parameter->type == VALUE_BODY ||
+      parameter->type == VALUE_FILE)
     put_quoted(settings, parameter->name, text);
   else
     settings_put(settings, parameter->name, text);
   return GAMUT_OK;
+}
+
+static void put_flow(FILE *file, const struct tree *node)
+{
+  const bool mapping = node->kind == TREE_MAPPING;
+  if (node->kind == TREE_SCALAR) {
+    fprintf(file, "%s%s%s", node->quoted ? "\"" : "", node->text, node->quoted ? "\"" : "");
+    return;
+  }
+  fputc(mapping ? '{' : '[', file);
+  for (size_t i = 0; i < node->children; i++) {
+    fprintf(file, "%s%s%s", i ? ", " : "", mapping ? node->child[i]->key : "", mapping ? ": " : "");
+    put_flow(file, node->child[i]);
+  }
+  fputc(mapping ? '}' : ']', file);
+}
+
+gamut_status settings_node(struct settings *settings, const struct descriptor *descriptor,
+                           const struct tree *node, const char *what, const struct units *units,
+                           struct trace *trace)
+{
+  char *text = NULL;
+  size_t size = 0;
+  if (node->kind == TREE_SCALAR)
+    return settings_read(settings, descriptor, node->key, node->text, what, units, trace);
+  FILE *file = open_memstream(&text, &size);
+  if (!file)
+    return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  put_flow(file, node);
+  memory_close(file, &text);
+  const struct parameter *parameter = specimen_parameter(descriptor, node->key);
+  if (parameter)
+    settings_put(settings, parameter->name, text);
+  free(text);
+  return parameter ? GAMUT_OK : unknown_parameter(descriptor, node->key, what, trace);
 }
 
 /* The settings of one table of parameters as a YAML mapping. */
@@ -171,6 +209,11 @@ gamut_status specimen_values(struct specimen *specimen, const struct descriptor 
 {
   gamut_status status = GAMUT_OK;
   struct tree *extra = NULL;
+  char beside[PATH_MAX];
+  if (settings->folder) { /* files are looked for where their namer stands */
+    snprintf(beside, sizeof beside, "%s/%s", settings->folder, source);
+    source = beside;
+  }
   *specimen = (struct specimen){.descriptor = descriptor};
   TRY(mapping_of(settings, descriptor->parameter, descriptor->parameters, source, trace,
                  &specimen->tree));
@@ -198,8 +241,10 @@ gamut_status specimen_open(struct specimen *specimen, struct registry *registry,
   specimen->arena = arena_new();
   if (!specimen->arena)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+  lone_run_open(&specimen->lone, trace, specimen->arena);
+  lone_run_values(specimen->values);
   return kernel_new(&specimen->instance, registry, specimen->arena, count, specimen->extra, density,
-                    trace, &specimen->kernel);
+                    lone_run_handle(&specimen->lone), trace, &specimen->kernel);
 }
 
 void specimen_close(struct specimen *specimen)

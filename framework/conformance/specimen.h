@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "conformance/lone_run.h"
 #include "material/material.h"
 
 /* A parameter's value as it would stand in a scene, with its unit. */
@@ -16,6 +17,7 @@ struct setting {
 struct settings {
   struct setting *item;
   size_t count, capacity;
+  const char *folder; /* that files are named from; null: the current one */
 };
 void settings_free(struct settings *);
 /* Puts a value in YAML words; an earlier one of that name is replaced. */
@@ -27,6 +29,9 @@ void settings_number(struct settings *, const struct parameter *, double si);
 gamut_status settings_read(struct settings *, const struct descriptor *, const char *name,
                            const char *text, const char *what, const struct units *,
                            struct trace *);
+/* Puts what a test says of the parameter that the node is called like: a value of any type. */
+gamut_status settings_node(struct settings *, const struct descriptor *, const struct tree *node,
+                           const char *what, const struct units *, struct trace *);
 void settings_copy(struct settings *, const struct settings *from);
 
 /* A declared parameter or material parameter by name or symbol; null if there is none. */
@@ -39,6 +44,7 @@ struct specimen {
   struct values *extra;     /* of its material parameters; null if it has none */
   struct instance instance; /* the kernel keeps it: a specimen that was opened stays where it is */
   struct arena *arena;
+  struct lone_run lone;  /* for the kernel's `prepare` */
   struct kernel *kernel; /* null until specimen_open */
 };
 

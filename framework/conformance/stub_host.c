@@ -5,9 +5,9 @@
 
 #include "run/host.h"
 
-static struct bare_run *bare(struct gamut_run *run)
+static struct lone_run *bare(struct gamut_run *run)
 {
-  return (struct bare_run *)(void *)run;
+  return (struct lone_run *)(void *)run;
 }
 
 static gamut_status bare_fail(struct gamut_run *run, gamut_status status, const char *format, ...)
@@ -26,6 +26,18 @@ static gamut_status bare_fail_at(struct gamut_run *run, const struct gamut_value
   va_start(list, format);
   gamut_status status =
       host_messages_fail_at(bare(run)->trace, values, path, expected, format, list);
+  va_end(list);
+  return status;
+}
+
+static gamut_status bare_fail_in_file(struct gamut_run *run, const struct gamut_values *values,
+                                      const char *path, size_t line, const char *expected,
+                                      const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  gamut_status status =
+      host_messages_fail_in_file(bare(run)->trace, values, path, line, expected, format, list);
   va_end(list);
   return status;
 }
@@ -69,6 +81,7 @@ static const struct gamut_host bare_host = {
     .size = sizeof(struct gamut_host),
     .fail = bare_fail,
     .fail_at = bare_fail_at,
+    .fail_in_file = bare_fail_in_file,
     .warn = bare_note,
     HOST_OF_VALUES,
     HOST_OF_SUMS,
@@ -79,15 +92,31 @@ static const struct gamut_host bare_host = {
     .note = bare_note,
 };
 
+void lone_run_open(struct lone_run *lone, struct trace *trace, struct arena *arena)
+{
+  *lone = (struct lone_run){.head = {&bare_host}, .trace = trace, .arena = arena};
+}
+
+struct gamut_run *lone_run_handle(struct lone_run *lone)
+{
+  return (struct gamut_run *)(void *)lone;
+}
+
+void lone_run_values(struct gamut_values *values)
+{
+  host_of_values(values, &bare_host);
+}
+
 bool bare_run_new(struct bare_run *run, struct proof *proof)
 {
   gamut_status status = GAMUT_OK;
   const struct gamut_plugin *plugin;
-  *run = (struct bare_run){.head = {&bare_host}, .trace = trace_new(), .arena = arena_new()};
+  *run = (struct bare_run){0};
+  lone_run_open(&run->lone, trace_new(), arena_new());
   TRY(specimen_values(&run->specimen, proof->descriptor, &proof->base, "base", proof->units,
-                      run->trace));
-  TRY(registry_open(proof->registry, proof->descriptor, run->trace, &plugin));
-  host_of_values(run->specimen.values, &bare_host);
+                      run->lone.trace));
+  TRY(registry_open(proof->registry, proof->descriptor, run->lone.trace, &plugin));
+  lone_run_values(run->specimen.values);
   run->ops = plugin->ops;
 done:
   if (status != GAMUT_OK) {
@@ -100,18 +129,18 @@ done:
 void bare_run_free(struct bare_run *run)
 {
   specimen_close(&run->specimen);
-  arena_free(run->arena);
-  trace_free(run->trace);
+  arena_free(run->lone.arena);
+  trace_free(run->lone.trace);
 }
 
 struct gamut_run *bare_run_handle(struct bare_run *run)
 {
-  return (struct gamut_run *)(void *)run;
+  return lone_run_handle(&run->lone);
 }
 
 void bare_run_say(struct bare_run *run, struct checks *checks)
 {
-  char *text = trace_text(run->trace);
+  char *text = trace_text(run->lone.trace);
   check_say(checks, "%s", text ? text : "");
   free(text);
 }

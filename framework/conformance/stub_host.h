@@ -1,4 +1,4 @@
-/* As much of a run as a plugin needs that works without bodies: estimators and random fields. */
+/* A plugin that needs no bodies, with its values: estimators and random fields. */
 #ifndef GAMUT_STUB_HOST_H
 #define GAMUT_STUB_HOST_H
 
@@ -7,9 +7,7 @@
 #include "conformance/conformance_private.h"
 
 struct bare_run {
-  struct gamut_run_head head; /* first */
-  struct trace *trace;
-  struct arena *arena;
+  struct lone_run lone;
   struct specimen specimen; /* the plugin's values */
   const void *ops;
 };

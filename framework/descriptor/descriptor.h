@@ -13,16 +13,16 @@
  *     types: real (default), integer, boolean, choice (choices: [..]), text, vector (size: 2 or
  *     "1..3"), body (name of a body), expression (variables: [x, y, z]), table (columns: {time: s,
  *     strain: 1}; a sequence of rows or {file: NAME.csv}; of two columns also one number, which is
- *     the row [0, number]), group (members: like parameters), list (of: a parameter's declaration;
- *     size: "0..8"; entries in brackets, those that are texts may be one without), map (of:, size:;
- *     entries by names that the scene gives), entry (of: name of a map among the plugin's
- *     parameters; an entry of it by name; arguments of measures only), one of (forms: like
- *     parameters; a value written in one of these ways, told apart by its form: words of choices
- *     and booleans first, else a plain value, a list or a mapping, at most one form of each),
- *     levels (of an estimator: a mapping of
- *     scene paths to lists of values, what a study varies; the choice `combine` beside it says how:
- *     grid, every value with every other, or zip, side by side), plugin (kind: random_field; a
- *     plugin of that kind with its parameters, {model: NAME, ...}).
+ *     the row [0, number]; size: "4..1000" rows), file (a path from the folder of what names it),
+ *     group (members: like parameters), list (of: a parameter's declaration; size: "0..8";
+ *     entries in brackets, those that are texts may be one without), map (of:, size:; entries by
+ *     names that the scene gives), entry (of: name of a map among the plugin's parameters; an entry
+ *     of it by name; arguments of measures only), one of (forms: like parameters; a value written
+ *     in one of these ways, told apart by its form: words of choices and booleans first, else a
+ *     plain value, a list or a mapping, at most one form of each), levels (of an estimator: a
+ *     mapping of scene paths to lists of values, what a study varies; the choice `combine` beside
+ *     it says how: grid, every value with every other, or zip, side by side), plugin (kind:
+ *     random_field; a plugin of that kind with its parameters, {model: NAME, ...}).
  *     Without default and not optional: required. unit "1" is a pure number. Ranges are in SI
  *     unless they carry a unit: "[a, b)", "(0, inf)". Outside `physical` a scene is refused,
  *     outside `fit`, where the law holds, warned. `usual` is the spread of published values: beyond
@@ -52,6 +52,11 @@
  *   laws: [eos, strength?]             elasticity: callees; `?`: may be absent (null pointer).
  *                                      solver: laws that it calls itself; it then updates
  *                                      materials by no elasticity, and materials need none
+ *   prepare: true                      its kernels carry data of the plugin's own, made once of the
+ *                                      values by its operation `prepare`. Without it a law has only
+ *                                      parameters that a kernel sees. A number that `prepare` reads
+ *                                      says `prepared: true`; no kernel sees it then, and it can be
+ *                                      random, but not differ from point to point
  *   inverse: true                      strength: offers the inverse
  *   derivatives: {of: pressure, by: [C0, S1, reference_density]}
  *   variants: [{when: "C == 0", kernel: name, drops: [plastic_strain_rate]}]   `when` over real,
@@ -102,9 +107,23 @@
 #include "unit/unit.h"
 
 enum value_type {
-  VALUE_REAL, VALUE_INTEGER, VALUE_BOOLEAN, VALUE_CHOICE, VALUE_TEXT, VALUE_VECTOR, VALUE_BODY,
-  VALUE_EXPRESSION, VALUE_TABLE, VALUE_LEVELS, VALUE_PLUGIN, VALUE_LIST, VALUE_MAP, VALUE_ENTRY,
-  VALUE_ONE_OF, VALUE_GROUP /* the last */
+  VALUE_REAL,
+  VALUE_INTEGER,
+  VALUE_BOOLEAN,
+  VALUE_CHOICE,
+  VALUE_TEXT,
+  VALUE_VECTOR,
+  VALUE_BODY,
+  VALUE_EXPRESSION,
+  VALUE_TABLE,
+  VALUE_FILE,
+  VALUE_LEVELS,
+  VALUE_PLUGIN,
+  VALUE_LIST,
+  VALUE_MAP,
+  VALUE_ENTRY,
+  VALUE_ONE_OF,
+  VALUE_GROUP /* the last */
 };
 
 /* A range with open or closed ends, SI. */
@@ -127,8 +146,9 @@ struct parameter {
   const struct tree *standard; /* the default as written, or null */
   bool optional, random;
   bool elsewhere; /* not for the law's kernels: a solver reads it */
+  bool prepared;  /* not for kernels: `prepare` reads it */
   struct range fit, physical, usual;
-  size_t size_min, size_max;   /* of a vector; entries of a list or map */
+  size_t size_min, size_max;   /* of a vector; entries of a list or map; rows of a table */
   const char **choice;         /* names of a choice, variables of an expression, table columns */
   const char **choice_unit;    /* units of table columns */
   size_t choices;
@@ -187,6 +207,7 @@ struct descriptor {
   struct field_use *output;            size_t outputs;
   struct state_variable *state;        size_t states;
   size_t scratch;
+  bool prepare;
   struct field_use *law;               size_t laws; /* "eos", "strength" */
   bool inverse;
   const char *derivative_of; const char **derivative_by; size_t derivatives;
@@ -215,6 +236,9 @@ const char *kind_name(enum gamut_kind);
 bool kind_from_name(const char *name, enum gamut_kind *);
 /* Names of the operations of a kind, as they stand in struct NAME_ops; null past the end. */
 const char *kind_operation(enum gamut_kind, size_t index);
+/* The same of all of a plugin's: those of its kind, prepare and release where it prepares, then the
+ * kernels of variants and tasks. */
+const char *descriptor_operation(const struct descriptor *, size_t index);
 const struct parameter *parameter_named(const struct parameter *, size_t count, const char *name);
 /* How its value may be written: bits 1 << enum tree_kind. */
 unsigned parameter_forms(const struct parameter *);
@@ -234,16 +258,19 @@ bool descriptor_provides(const struct descriptor *, const char *name);
 
 /* What a pointer of the generated struct leads to, in declared order after count and status. */
 enum slot_kind {
-  SLOT_PARAMETER,         /* const double *: real parameter `index` (integers and booleans too) */
-  SLOT_MATERIAL_PARAMETER,/* const double *: material_parameter `index` */
-  SLOT_INPUT,             /* const double *[components] */
-  SLOT_OUTPUT,            /* double *[components] */
-  SLOT_STATE_BEGIN, SLOT_STATE_END,
-  SLOT_LAW,               /* const struct gamut_eos_law * or gamut_strength_law * */
-  SLOT_SCRATCH,           /* double *scratch[n] */
-  SLOT_INVERSE_INPUT, SLOT_INVERSE_OUTPUT, /* flow_stress_given, plastic_strain_inverse */
+  SLOT_PARAMETER,          /* const double *: real parameter `index` (integers and booleans too) */
+  SLOT_MATERIAL_PARAMETER, /* const double *: material_parameter `index` */
+  SLOT_INPUT,              /* const double *[components] */
+  SLOT_OUTPUT,             /* double *[components] */
+  SLOT_STATE_BEGIN,
+  SLOT_STATE_END,
+  SLOT_LAW,     /* const struct gamut_eos_law * or gamut_strength_law * */
+  SLOT_SCRATCH, /* double *scratch[n] */
+  SLOT_INVERSE_INPUT,
+  SLOT_INVERSE_OUTPUT,    /* flow_stress_given, plastic_strain_inverse */
   SLOT_DERIVATIVE,        /* double *: first by derivative_by[index] */
-  SLOT_SECOND_DERIVATIVE  /* double *: by derivative_by[index] and [other] (index <= other) */
+  SLOT_SECOND_DERIVATIVE, /* double *: by derivative_by[index] and [other] (index <= other) */
+  SLOT_DATA               /* const struct NAME_data *: what `prepare` made */
 };
 struct slot {
   enum slot_kind kind;
@@ -252,7 +279,8 @@ struct slot {
   const char *name, *unit;
 };
 /* Layout of the struct as pointers; *slots is allocated, freed by the caller. Kernels see
- * parameters of type real, integer, boolean (0 or 1) and choice (its number). */
+ * parameters of type real, integer, boolean (0 or 1) and choice (its number) that are not prepared.
+ */
 size_t descriptor_layout(const struct descriptor *, struct slot **slots);
 
 /* Digest of kind, id, the ordered names, units and components of the layout, and the ordered names

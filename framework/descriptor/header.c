@@ -53,23 +53,27 @@ static const char *slot_meaning(const struct descriptor *d, const struct slot *s
   case SLOT_DERIVATIVE:
   case SLOT_SECOND_DERIVATIVE:
     return "null if not wanted";
+  case SLOT_DATA:
+    return "what `prepare` made";
   }
   return NULL;
 }
 
 /* "  const double *stress_begin[6];" */
-static int declare(const struct slot *slot, char *text, size_t size)
+static int declare(const struct descriptor *d, const struct slot *slot, char *text, size_t size)
 {
   const char *type = slot->kind == SLOT_PARAMETER || slot->kind == SLOT_MATERIAL_PARAMETER ||
                              slot->kind == SLOT_INPUT || slot->kind == SLOT_STATE_BEGIN ||
                              slot->kind == SLOT_INVERSE_INPUT
                          ? "const double"
                          : "double";
-  char law[64], extent[16] = "";
-  if (slot->kind == SLOT_LAW) {
-    snprintf(law, sizeof law, "const struct gamut_%s_law", slot->name);
-    type = law;
-  }
+  char other[160], extent[16] = "";
+  if (slot->kind == SLOT_LAW)
+    snprintf(other, sizeof other, "const struct gamut_%s_law", slot->name);
+  else if (slot->kind == SLOT_DATA)
+    snprintf(other, sizeof other, "const struct %s_data", d->name);
+  if (slot->kind == SLOT_LAW || slot->kind == SLOT_DATA)
+    type = other;
   if (slot->components > 1 || slot->kind == SLOT_SCRATCH)
     snprintf(extent, sizeof extent, "[%u]", slot->components);
   return snprintf(text, size, "  %s *%s%s;", type, slot->name, extent);
@@ -78,10 +82,10 @@ static int declare(const struct slot *slot, char *text, size_t size)
 static void put_member(FILE *file, const struct descriptor *d, const struct slot *slot, int width)
 {
   char text[256];
-  declare(slot, text, sizeof text);
+  declare(d, slot, text, sizeof text);
   fprintf(file, "%-*s /* ", width, text);
   const char *meaning = slot_meaning(d, slot);
-  bool unit = slot->kind != SLOT_LAW && slot->kind != SLOT_SCRATCH;
+  bool unit = slot->kind != SLOT_LAW && slot->kind != SLOT_SCRATCH && slot->kind != SLOT_DATA;
   if (unit)
     put_comment(file, slot->unit);
   if (meaning) {
@@ -190,6 +194,8 @@ static void put_block(FILE *file, const struct descriptor *d)
 {
   struct slot *slots;
   size_t count = descriptor_layout(d, &slots);
+  if (d->prepare)
+    fprintf(file, "\nstruct %s_data; /* the plugin's own */\n", d->name);
   fputs("\n/* ", file);
   put_comment(file, d->summary);
   fprintf(file, " */\nstruct %s {\n", d->name);
@@ -197,7 +203,7 @@ static void put_block(FILE *file, const struct descriptor *d)
   int width = 18;
   for (size_t i = 0; i < count; i++) {
     char text[256];
-    int length = declare(&slots[i], text, sizeof text);
+    int length = declare(d, &slots[i], text, sizeof text);
     width = length > width && length <= 44 ? length : width;
   }
   fprintf(file, "%-*s /* points in this block */\n", width, "  size_t count;");
@@ -214,6 +220,12 @@ static void put_operations(FILE *file, const struct descriptor *d)
   fprintf(file, "\nstruct %s_ops {\n  size_t size;\n  GAMUT_", d->name);
   put_upper(file, kind_name(d->kind));
   fprintf(file, "_OPS(struct %s)\n", d->name);
+  if (d->prepare)
+    fprintf(file,
+            "  gamut_status (*prepare)(struct gamut_run *, const struct gamut_values *,\n"
+            "                          struct %s_data **);\n"
+            "  void (*release)(struct %s_data *);\n",
+            d->name, d->name);
   for (size_t i = 0; i < d->variants; i++) {
     fprintf(file, "  void (*%s)(const struct %s *); /* in place of the first operation where ",
             d->variant[i].kernel, d->name);

@@ -39,6 +39,24 @@ const char *kind_operation(enum gamut_kind kind, size_t index)
   return index < ARRAY_SIZE(operation[kind]) ? operation[kind][index] : NULL;
 }
 
+const char *descriptor_operation(const struct descriptor *d, size_t index)
+{
+  static const char *const prepare[] = {"prepare", "release"};
+  size_t own = 0;
+  while (kind_operation(d->kind, own))
+    own++;
+  if (index < own)
+    return kind_operation(d->kind, index);
+  index -= own;
+  if (d->prepare && index < ARRAY_SIZE(prepare))
+    return prepare[index];
+  index -= d->prepare ? ARRAY_SIZE(prepare) : 0;
+  if (index < d->variants)
+    return d->variant[index].kernel;
+  index -= d->variants;
+  return index < d->tasks ? d->task[index].kernel : NULL;
+}
+
 const char *value_type_name(enum value_type type)
 {
   static const char *const name[] = {
@@ -46,18 +64,20 @@ const char *value_type_name(enum value_type type)
       [VALUE_BOOLEAN] = "boolean", [VALUE_CHOICE] = "choice",
       [VALUE_TEXT] = "text",       [VALUE_VECTOR] = "vector",
       [VALUE_BODY] = "body",       [VALUE_EXPRESSION] = "expression",
-      [VALUE_TABLE] = "table",     [VALUE_LEVELS] = "levels",
-      [VALUE_PLUGIN] = "plugin",   [VALUE_LIST] = "list",
-      [VALUE_MAP] = "map",         [VALUE_ENTRY] = "entry",
-      [VALUE_ONE_OF] = "one of",   [VALUE_GROUP] = "group",
+      [VALUE_TABLE] = "table",     [VALUE_FILE] = "file",
+      [VALUE_LEVELS] = "levels",   [VALUE_PLUGIN] = "plugin",
+      [VALUE_LIST] = "list",       [VALUE_MAP] = "map",
+      [VALUE_ENTRY] = "entry",     [VALUE_ONE_OF] = "one of",
+      [VALUE_GROUP] = "group",
   };
   return (size_t)type < ARRAY_SIZE(name) ? name[type] : NULL;
 }
 
 bool kernel_sees(const struct parameter *parameter)
 {
-  return parameter->type == VALUE_REAL || parameter->type == VALUE_INTEGER ||
-         parameter->type == VALUE_BOOLEAN || parameter->type == VALUE_CHOICE;
+  return !parameter->prepared &&
+         (parameter->type == VALUE_REAL || parameter->type == VALUE_INTEGER ||
+          parameter->type == VALUE_BOOLEAN || parameter->type == VALUE_CHOICE);
 }
 
 const struct parameter *parameter_named(const struct parameter *parameter, size_t count,

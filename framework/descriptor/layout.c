@@ -121,6 +121,8 @@ static void lay_out(struct layout *layout, const struct descriptor *d)
   }
   for (size_t i = 0; i < d->laws; i++)
     add(layout, SLOT_LAW, i, 0, 1, d->law[i].name, "1");
+  if (d->prepare)
+    add(layout, SLOT_DATA, 0, 0, 1, "data", "1");
   if (d->scratch)
     add(layout, SLOT_SCRATCH, 0, 0, (unsigned)d->scratch, "scratch", "1");
   if (d->inverse) {
@@ -227,6 +229,8 @@ static const char *section_of(enum slot_kind kind)
   case SLOT_DERIVATIVE:
   case SLOT_SECOND_DERIVATIVE:
     return "derivatives";
+  case SLOT_DATA:
+    return "prepare";
   }
   return "parameters";
 }

@@ -40,6 +40,7 @@ static const struct {
     {"state", KERNELS | SOLVER},
     {"laws", KIND(GAMUT_KIND_ELASTICITY) | SOLVER},
     {"inverse", KIND(GAMUT_KIND_STRENGTH)},
+    {"prepare", KERNELS},
     {"derivatives", LAWS},
     {"variants", LAWS | KIND(GAMUT_KIND_ELASTICITY)},
     {"tasks", KIND(GAMUT_KIND_EFFECT)},
@@ -191,6 +192,36 @@ static void check_names(struct reader *reader, const struct tree *root, const ch
           "'%s' is declared twice, under 'parameters' and under '%s'", parameter[i].name, section);
 }
 
+static void check_prepared(struct reader *reader, const struct tree *section,
+                           const struct parameter *parameter, size_t count, bool prepare)
+{
+  for (size_t i = 0; section && i < count; i++)
+    if (parameter[i].prepared && !prepare)
+      reader_error_at_key(reader, tree_get(section->child[i], "prepared"), NULL,
+                          "no `prepare` reads '%s'", parameter[i].name);
+}
+
+/* What a law is given reaches its kernels, by itself or in what is prepared. */
+static void check_prepare(struct reader *reader, const struct tree *root)
+{
+  const struct descriptor *d = reader->descriptor;
+  const struct tree *section = tree_get(root, "parameters");
+  check_prepared(reader, section, d->parameter, d->parameters, d->prepare);
+  check_prepared(reader, tree_get(root, "material_parameters"), d->material_parameter,
+                 d->material_parameters, false);
+  check_prepared(reader, tree_get(root, "body_parameters"), d->body_parameter, d->body_parameters,
+                 false);
+  if (d->prepare && d->kind == GAMUT_KIND_EFFECT && !d->tasks)
+    reader_error_at_key(reader, tree_get(root, "prepare"), "operations create and destroy",
+                        "'%s' has no kernels that could carry what is prepared", d->id);
+  const bool law = (KIND(d->kind) & KERNELS) && d->kind != GAMUT_KIND_EFFECT;
+  for (size_t i = 0; law && !d->prepare && i < d->parameters; i++)
+    if (!kernel_sees(&d->parameter[i]) && !d->parameter[i].prepared)
+      reader_error_at_key(reader, section->child[i], "'prepare: true', and an operation that does",
+                          "kernels see no value of type %s, and nothing prepares '%s' for them",
+                          value_type_name(d->parameter[i].type), d->parameter[i].name);
+}
+
 static void read_all(struct reader *reader, const struct tree *root, const char *file)
 {
   struct descriptor *d = reader->descriptor;
@@ -221,6 +252,7 @@ static void read_all(struct reader *reader, const struct tree *root, const char 
   read_messages(reader, root);
   read_services(reader, root);
   check_outputs(reader, root);
+  check_prepare(reader, root);
   check_layout(reader, root);
   check_geometry(reader, root);
 }

@@ -187,10 +187,13 @@ static void read_derivatives(struct reader *reader, const struct tree *node)
     const struct parameter *parameter =
         parameter_named(d->parameter, d->parameters, d->derivative_by[i]);
     const struct field_use *input = use_named(d->input, d->inputs, d->derivative_by[i]);
-    if (!(parameter && parameter->type == VALUE_REAL) && !(input && input->components == 1))
-      reader_error_at_value(reader, by->kind == TREE_SEQUENCE ? by->child[i] : by, NULL,
-                            "'%s' is neither a real parameter nor an input with one component",
-                            d->derivative_by[i]);
+    const bool real = parameter && parameter->type == VALUE_REAL && !parameter->prepared;
+    if (!real && !(input && input->components == 1))
+      reader_error_at_value(
+          reader, by->kind == TREE_SEQUENCE ? by->child[i] : by, NULL,
+          "'%s' is neither a real parameter that kernels see nor an input with one "
+          "component",
+          d->derivative_by[i]);
   }
   if (!d->derivative_of)
     d->derivatives = 0;
@@ -205,5 +208,6 @@ void read_fields(struct reader *reader, const struct tree *root)
   d->scratch = (size_t)read_whole(reader, root, "scratch", 0, 256, 0);
   read_laws(reader, tree_get(root, "laws"));
   d->inverse = read_flag(reader, root, "inverse", false);
+  d->prepare = read_flag(reader, root, "prepare", false);
   read_derivatives(reader, tree_get(root, "derivatives"));
 }

@@ -171,6 +171,7 @@ static void check_kernel(struct reader *reader, const struct tree *item, const c
   bool taken = strcmp(kernel, "size") == 0;
   for (size_t i = 0; (operation = kind_operation(reader->descriptor->kind, i)); i++)
     taken = taken || strcmp(operation, kernel) == 0;
+  taken = taken || strcmp(kernel, "prepare") == 0 || strcmp(kernel, "release") == 0;
   for (size_t i = 0; i < count && !taken; i++)
     taken = strcmp(earlier[i], kernel) == 0;
   if (taken)

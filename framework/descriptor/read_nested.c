@@ -22,6 +22,7 @@ unsigned parameter_forms(const struct parameter *parameter)
   case VALUE_CHOICE:
   case VALUE_TEXT:
   case VALUE_BODY:
+  case VALUE_FILE:
   case VALUE_EXPRESSION:
   case VALUE_ENTRY:
     return SCALAR;

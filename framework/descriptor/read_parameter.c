@@ -24,7 +24,8 @@ static const struct {
     {"source", ALL},
     {"symbol", ALL},
     {"optional", ALL},
-    {"default", ALL & ~(BIT(VALUE_GROUP) | BIT(VALUE_PLUGIN) | HOLDERS | BIT(VALUE_ENTRY))},
+    {"default",
+     ALL & ~(BIT(VALUE_GROUP) | BIT(VALUE_PLUGIN) | BIT(VALUE_FILE) | HOLDERS | BIT(VALUE_ENTRY))},
     {"unit", RANGED | BIT(VALUE_EXPRESSION)},
     {"unit_of", BIT(VALUE_REAL)},
     {"fit", RANGED},
@@ -32,7 +33,8 @@ static const struct {
     {"physical", RANGED},
     {"random", BIT(VALUE_REAL)},
     {"elsewhere", BIT(VALUE_REAL)},
-    {"size", BIT(VALUE_VECTOR) | ENTRIES},
+    {"prepared", BIT(VALUE_REAL) | BIT(VALUE_INTEGER) | BIT(VALUE_BOOLEAN) | BIT(VALUE_CHOICE)},
+    {"size", BIT(VALUE_VECTOR) | BIT(VALUE_TABLE) | ENTRIES},
     {"choices", BIT(VALUE_CHOICE)},
     {"variables", BIT(VALUE_EXPRESSION)},
     {"columns", BIT(VALUE_TABLE)},
@@ -92,15 +94,17 @@ static void read_range(struct reader *reader, const struct tree *node, const cha
   }
 }
 
-/* "3" or "1..3"; of a list or map, which need say nothing, also "0..3". */
+/* "3" or "1..3"; of a list, map or table, which need say nothing, also "0..3". */
 static void read_size(struct reader *reader, const struct tree *node, struct parameter *parameter)
 {
-  enum { COMPONENTS_MAX = 1000, ENTRIES_MAX = 10000 };
+  enum { COMPONENTS_MAX = 1000, ENTRIES_MAX = 10000, ROWS_MAX = 100000000 };
   const bool vector = parameter->type == VALUE_VECTOR;
-  const long least = vector ? 1 : 0, most = vector ? COMPONENTS_MAX : ENTRIES_MAX;
+  const bool table = parameter->type == VALUE_TABLE;
+  const long least = vector || table ? 1 : 0;
+  const long most = vector ? COMPONENTS_MAX : table ? ROWS_MAX : ENTRIES_MAX;
   const char *text = read_text(reader, node, "size", vector);
   parameter->size_min = (size_t)least;
-  parameter->size_max = vector ? 1 : ENTRIES_MAX;
+  parameter->size_max = vector ? 1 : (size_t)most;
   if (!text)
     return;
   char *after;
@@ -226,6 +230,7 @@ static void check_default(struct reader *reader, const struct parameter *paramet
     return;
   case VALUE_EXPRESSION:
   case VALUE_TABLE:
+  case VALUE_FILE:
   case VALUE_LEVELS:
   case VALUE_PLUGIN:
   case VALUE_LIST:
@@ -263,6 +268,7 @@ static void read_by_type(struct reader *reader, const struct tree *node,
     read_choices(reader, node, "variables", parameter);
     break;
   case VALUE_TABLE:
+    read_size(reader, node, parameter);
     read_columns(reader, node, parameter);
     break;
   case VALUE_PLUGIN:
@@ -336,6 +342,7 @@ void read_parameter(struct reader *reader, const struct tree *node, enum declare
   parameter->optional = read_flag(reader, node, "optional", false);
   parameter->random = read_flag(reader, node, "random", false);
   parameter->elsewhere = read_flag(reader, node, "elsewhere", false);
+  parameter->prepared = read_flag(reader, node, "prepared", false);
   read_by_type(reader, node, parameter);
   read_range(reader, node, "fit", parameter, &parameter->fit);
   read_range(reader, node, "physical", parameter, &parameter->physical);

@@ -229,9 +229,11 @@ size_t arithmetic_names(struct reader *reader, const char ***names)
   const struct descriptor *descriptor = reader->descriptor;
   size_t count = 0;
   *names = reader_keep(reader, descriptor->parameters, sizeof **names);
-  for (size_t i = 0; i < descriptor->parameters; i++)
-    if (kernel_sees(&descriptor->parameter[i]) && descriptor->parameter[i].type != VALUE_CHOICE)
+  for (size_t i = 0; i < descriptor->parameters; i++) {
+    const enum value_type type = descriptor->parameter[i].type;
+    if (type == VALUE_REAL || type == VALUE_INTEGER || type == VALUE_BOOLEAN)
       (*names)[count++] = descriptor->parameter[i].name;
+  }
   return count;
 }
 

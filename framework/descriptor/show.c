@@ -67,6 +67,8 @@ static void put_type(FILE *file, const struct parameter *parameter)
   fputs(value_type_name(parameter->type), file);
   if (parameter->type == VALUE_VECTOR || parameter->of)
     put_size(file, parameter);
+  if (parameter->type == VALUE_TABLE && parameter->size_min > 1)
+    fprintf(file, " of at least %zu rows", parameter->size_min);
   if (parameter->of) {
     fputs(": ", file);
     put_type(file, parameter->of);
@@ -239,6 +241,8 @@ static void put_fields(FILE *file, const struct descriptor *d)
             d->state[i].doc ? d->state[i].doc : "");
   }
   put_uses(file, "laws that it calls", d->law, d->laws);
+  if (d->prepare)
+    fputs("\nprepares data of its own for its kernels\n", file);
   if (d->inverse)
     fputs("\noffers its inverse: plastic strain from flow stress\n", file);
   if (d->derivatives) {

@@ -82,7 +82,9 @@ static json_t *declared(const struct parameter *p)
   set_range(value, "fit", &p->fit);
   set_range(value, "physical", &p->physical);
   set_range(value, "usual", &p->usual);
-  if (p->type == VALUE_VECTOR || p->of)
+  if (p->prepared)
+    json_object_set_new(value, "prepared", json_true());
+  if (p->type == VALUE_VECTOR || (p->type == VALUE_TABLE && p->size_min > 1) || p->of)
     json_object_set_new(value, "size", json_pack("[i, i]", (int)p->size_min, (int)p->size_max));
   if (p->type == VALUE_CHOICE)
     json_object_set_new(value, "choices", texts(p->choice, p->choices));
@@ -229,6 +231,7 @@ static void set_interface(json_t *object, const struct descriptor *d)
   json_object_set_new(object, "state", states(d));
   json_object_set_new(object, "laws", uses(d->law, d->laws));
   json_object_set_new(object, "scratch", json_integer((json_int_t)d->scratch));
+  json_object_set_new(object, "prepare", json_boolean(d->prepare));
   json_object_set_new(object, "inverse", json_boolean(d->inverse));
   if (d->derivatives) {
     json_t *value = json_object();

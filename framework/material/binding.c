@@ -95,7 +95,7 @@ static gamut_status make_kernel(struct bound_material *bound, int role,
   if (!instance->descriptor)
     return GAMUT_OK;
   TRY(kernel_new(instance, registry, bound->arena, bound->chunk, bound->material->extra,
-                 bound->material->density, trace, &bound->kernel[role]));
+                 bound->material->density, bound->run, trace, &bound->kernel[role]));
   if (role != ELASTICITY)
     TRY(kernel_try(bound->kernel[role], trace));
   TRY(links_new(bound->kernel[role], fields, trace, &bound->links[role]));
@@ -178,15 +178,17 @@ static gamut_status check_laws(const struct bound_material *bound, struct trace 
   return bound->kernel[STRENGTH] ? strength_fits(m, d, trace) : GAMUT_OK;
 }
 
-gamut_status material_new(const struct material *material, struct registry *registry,
-                          struct arena *arena, struct fields *fields, size_t chunk, int threads,
-                          struct trace *trace, struct bound_material **out)
+gamut_status material_new(const struct material *material, struct gamut_run *run,
+                          struct registry *registry, struct arena *arena, struct fields *fields,
+                          size_t chunk, int threads, struct trace *trace,
+                          struct bound_material **out)
 {
   gamut_status status;
   struct bound_material *bound = calloc(1, sizeof *bound);
   if (!bound)
     return trace_fail(trace, GAMUT_INTERNAL, "out of memory");
   bound->material = material;
+  bound->run = run;
   bound->arena = arena;
   bound->chunk = chunk;
   bound->threads = (size_t)threads;

@@ -14,7 +14,7 @@ struct image *image_new(const struct kernel *kernel, struct arena *arena, size_t
     return NULL;
   image->status = arena_take(arena, label, rows * sizeof *image->status);
   for (size_t s = 0; s < kernel->slots; s++)
-    image->pointer[s] = kernel->uniform[s];
+    image->pointer[s] = slot_constant(kernel, s);
   return image->status ? image : NULL;
 }
 
@@ -60,6 +60,16 @@ struct field *slot_field(const struct kernel *kernel, size_t number, struct fiel
     field->initial = d->state[slot->index].initial;
   }
   return field;
+}
+
+void *slot_constant(const struct kernel *kernel, size_t slot)
+{
+  return kernel->slot[slot].kind == SLOT_DATA ? kernel->data : (void *)kernel->uniform[slot];
+}
+
+bool slot_is_array(const struct kernel *kernel, size_t slot)
+{
+  return kernel->slot[slot].kind != SLOT_LAW && kernel->slot[slot].kind != SLOT_DATA;
 }
 
 bool slot_varies(const struct kernel *kernel, size_t slot)

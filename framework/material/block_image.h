@@ -36,10 +36,20 @@ struct kernel {
   double **absent;  /* one a slot: what an optional input reads where it is absent; null: zeros */
   char **path;      /* one a slot: scene path of a parameter with a random field, or null */
   kernel_function main;
+  void *data; /* what `prepare` made */
+  bool prepared;
   char variant[160];
 };
 
 struct image *image_new(const struct kernel *, struct arena *, size_t rows, const char *label);
+/* What a slot leads to wherever the block is: uniform parameters, the data; else null. */
+void *slot_constant(const struct kernel *, size_t slot);
+/* kernel_prepare.c: the plugin's own data, made of the values of its instance; nothing where its
+ * descriptor has no `prepare`. */
+gamut_status kernel_prepare(struct kernel *, struct gamut_run *, struct trace *);
+void kernel_release(struct kernel *);
+/* Whether it leads to an array of the points, and not to a law or data. */
+bool slot_is_array(const struct kernel *, size_t slot);
 /* Whether a parameter differs from point to point: it then follows the chunk as a field does. */
 bool slot_varies(const struct kernel *, size_t slot);
 /* What an optional input reads where it is absent; 0 of all else. */

@@ -5,10 +5,6 @@
 #include "expression/expression.h"
 #include "material/block_image.h"
 
-static const size_t operations_of_kind[GAMUT_KINDS] = {
-    [GAMUT_KIND_EOS] = 2, [GAMUT_KIND_STRENGTH] = 3, [GAMUT_KIND_ELASTICITY] = 2,
-    [GAMUT_KIND_EFFECT] = 6};
-
 kernel_function kernel_operation(const struct kernel *kernel, size_t number)
 {
   const char *ops = kernel->plugin->ops;
@@ -23,14 +19,10 @@ kernel_function kernel_operation(const struct kernel *kernel, size_t number)
 
 kernel_function kernel_named(const struct kernel *kernel, const char *name)
 {
-  const struct descriptor *d = kernel->descriptor;
-  size_t number = operations_of_kind[d->kind];
-  for (size_t i = 0; i < d->variants; i++, number++)
-    if (strcmp(d->variant[i].kernel, name) == 0)
-      return kernel_operation(kernel, number);
-  for (size_t i = 0; i < d->tasks; i++, number++)
-    if (strcmp(d->task[i].kernel, name) == 0)
-      return kernel_operation(kernel, number);
+  const char *operation;
+  for (size_t i = 0; (operation = descriptor_operation(kernel->descriptor, i)); i++)
+    if (strcmp(operation, name) == 0)
+      return kernel_operation(kernel, i);
   return NULL;
 }
 
@@ -179,7 +171,8 @@ static gamut_status fill_absent(struct kernel *kernel, size_t size)
 
 gamut_status kernel_new(const struct instance *instance, struct registry *registry,
                         struct arena *arena, size_t size, const struct values *material_extra,
-                        double density, struct trace *trace, struct kernel **out)
+                        double density, struct gamut_run *run, struct trace *trace,
+                        struct kernel **out)
 {
   gamut_status status;
   struct kernel *kernel = calloc(1, sizeof *kernel);
@@ -200,8 +193,11 @@ gamut_status kernel_new(const struct instance *instance, struct registry *regist
   }
   choose_variant(kernel);
   if (fill_uniform(kernel, size, material_extra, density) != GAMUT_OK ||
-      fill_absent(kernel, size) != GAMUT_OK)
+      fill_absent(kernel, size) != GAMUT_OK) {
     status = trace_fail(trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
+  status = kernel_prepare(kernel, run, trace);
 done:
   if (status != GAMUT_OK) {
     kernel_free(kernel);
@@ -215,6 +211,7 @@ void kernel_free(struct kernel *kernel)
 {
   if (!kernel)
     return;
+  kernel_release(kernel);
   for (size_t s = 0; kernel->uniform && s < kernel->slots; s++)
     arena_give(kernel->arena, kernel->uniform[s]);
   for (size_t s = 0; kernel->absent && s < kernel->slots; s++)

@@ -82,6 +82,8 @@ gamut_status bench_new(const struct kernel *kernel, const struct kernel *eos,
       good = bind_law(bench, s, eos, strength) == GAMUT_OK;
       continue;
     }
+    if (!slot_is_array(kernel, s))
+      continue;
     fill(bench, s);
     bench->image->pointer[s] = is_derivative(&kernel->slot[s]) ? NULL : row(bench, s);
   }
@@ -131,7 +133,7 @@ static bool slot_is_called(const struct slot *slot, const char *name)
 double *bench_array(struct bench *bench, const char *name)
 {
   for (size_t s = 0; s < bench->kernel->slots; s++)
-    if (bench->kernel->slot[s].kind != SLOT_LAW && slot_is_called(&bench->kernel->slot[s], name))
+    if (slot_is_array(bench->kernel, s) && slot_is_called(&bench->kernel->slot[s], name))
       return row(bench, s);
   return NULL;
 }
@@ -154,7 +156,7 @@ static void move_block(struct bench *bench, ptrdiff_t points)
   struct image *image = bench->image;
   image->status += points;
   for (size_t s = 0; s < bench->kernel->slots; s++)
-    if (bench->kernel->slot[s].kind != SLOT_LAW && image->pointer[s])
+    if (slot_is_array(bench->kernel, s) && image->pointer[s])
       image->pointer[s] = (double *)image->pointer[s] + points;
 }
 

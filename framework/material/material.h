@@ -16,11 +16,12 @@
 typedef void (*kernel_function)(const void *block);
 
 /* One plugin instance made ready: its shared object open, its parameters as uniform arrays of
- * `size` values, its chosen variant. Shared by all threads, read-only in a step. */
+ * `size` values, its data prepared, its chosen variant. Shared by all threads, read-only in a step.
+ * The run is what its `prepare` is handed; the instance's values must have their host. */
 struct kernel;
 gamut_status kernel_new(const struct instance *, struct registry *, struct arena *, size_t size,
-                        const struct values *material_extra, double density, struct trace *,
-                        struct kernel **);
+                        const struct values *material_extra, double density, struct gamut_run *,
+                        struct trace *, struct kernel **);
 /* Calls a law (eos or strength) on a few points: it must write all its outputs and nothing else,
  * not depend on a point's company, and its slopes must be those of its results. GAMUT_PLUGIN if
  * not, or where it changes the processor's arithmetic. Its inverse likewise, but for the slopes. */
@@ -33,7 +34,7 @@ const char *kernel_variant(const struct kernel *);
 /* Operation by number in the generated struct NAME_ops (0: first of the kind). Null if not given.
  */
 kernel_function kernel_operation(const struct kernel *, size_t number);
-/* Operation of a task or variant by its name. */
+/* Operation by its name: that of a task or variant too. */
 kernel_function kernel_named(const struct kernel *, const char *name);
 /* The message of a point's status word, or null; and its severity (GAMUT_FINE for 0). */
 const struct message *status_message(const struct descriptor *, int64_t status);
@@ -66,10 +67,11 @@ gamut_status bench_derivatives(struct bench *, size_t point, bool differences, d
 /* A material in a run. */
 
 struct bound_material;
-/* Declares the material's fields among `fields` and makes blocks for `threads` threads. */
-gamut_status material_new(const struct material *, struct registry *, struct arena *,
-                          struct fields *, size_t chunk, int threads, struct trace *,
-                          struct bound_material **);
+/* Binds the material's laws, declares its fields among `fields` and makes blocks for `threads`
+ * threads. */
+gamut_status material_new(const struct material *, struct gamut_run *, struct registry *,
+                          struct arena *, struct fields *, size_t chunk, int threads,
+                          struct trace *, struct bound_material **);
 void material_free(struct bound_material *);
 /* What the material's task reads and writes; for the scheduler. Borrowed. */
 const struct gamut_use *material_uses(const struct bound_material *, size_t *count);

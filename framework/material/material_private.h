@@ -18,6 +18,7 @@ struct thread_state {
 
 struct bound_material {
   const struct material *material;
+  struct gamut_run *run;        /* whose it is */
   struct kernel *kernel[ROLES]; /* strength and eos may be null */
   struct links links[ROLES];
   struct gamut_use *use;

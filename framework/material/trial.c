@@ -308,7 +308,9 @@ static bool make(struct trial *trial, struct image *image, double *memory)
   trial->before = memory + (kernel->slots + 1) * STRIDE;
   image->status = trial->status + BAND;
   for (size_t s = 0; s < kernel->slots; s++) {
-    image->pointer[s] = is_derivative(kernel->slot[s].kind) ? NULL : row(trial, s);
+    image->pointer[s] = is_derivative(kernel->slot[s].kind) ? NULL
+                        : slot_is_array(kernel, s)          ? row(trial, s)
+                                                            : slot_constant(kernel, s);
     if (kernel->slot[s].kind != SLOT_LAW)
       continue;
     const bool strength = strcmp(kernel->slot[s].name, "strength") == 0;

@@ -183,42 +183,6 @@ static gamut_status check_plugin(struct entry *entry, const char *file,
   return GAMUT_OK;
 }
 
-/* Bytes of an operations table before the kernels. */
-static size_t operations_size(enum gamut_kind kind)
-{
-  static const size_t size[GAMUT_KINDS] = {
-      [GAMUT_KIND_EOS] = sizeof(struct {
-        size_t size;
-        GAMUT_EOS_OPS(void)
-      }),
-      [GAMUT_KIND_STRENGTH] = sizeof(struct {
-        size_t size;
-        GAMUT_STRENGTH_OPS(void)
-      }),
-      [GAMUT_KIND_ELASTICITY] = sizeof(struct {
-        size_t size;
-        GAMUT_ELASTICITY_OPS(void)
-      }),
-      [GAMUT_KIND_EFFECT] = sizeof(struct {
-        size_t size;
-        GAMUT_EFFECT_OPS(void)
-      }),
-      [GAMUT_KIND_RANDOM_FIELD] = sizeof(struct {
-        size_t size;
-        GAMUT_RANDOM_FIELD_OPS(void)
-      }),
-      [GAMUT_KIND_ESTIMATOR] = sizeof(struct {
-        size_t size;
-        GAMUT_ESTIMATOR_OPS(void)
-      }),
-      [GAMUT_KIND_SOLVER] = sizeof(struct {
-        size_t size;
-        GAMUT_SOLVER_OPS(void)
-      }),
-  };
-  return size[kind];
-}
-
 static bool measures_by_code(const struct descriptor *d)
 {
   for (size_t i = 0; i < d->measures; i++)
@@ -240,6 +204,8 @@ static bool is_required(const struct descriptor *d, const char *name)
   for (size_t i = 0; i < 8 && required[d->kind][i]; i++)
     if (strcmp(required[d->kind][i], name) == 0)
       return true;
+  if (strcmp(name, "prepare") == 0 || strcmp(name, "release") == 0)
+    return d->prepare;
   if (strcmp(name, "inverse") == 0)
     return d->inverse;
   if (d->kind == GAMUT_KIND_ESTIMATOR && strcmp(name, "report") == 0)
@@ -258,8 +224,11 @@ static gamut_status check_operations(struct entry *entry, const char *file, cons
                                      struct trace *trace)
 {
   const struct descriptor *d = entry->descriptor;
-  size_t own = (operations_size(d->kind) - sizeof(size_t)) / sizeof(operation);
-  size_t expected = operations_size(d->kind) + (d->variants + d->tasks) * sizeof(operation), size;
+  size_t own = 0, size;
+  while (descriptor_operation(d, own))
+    own++;
+  const size_t expected = sizeof(size_t) + own * sizeof(operation);
+  own -= d->variants + d->tasks;
   memcpy(&size, operations, sizeof size);
   if (size != expected)
     return refuse(entry, trace,
@@ -267,9 +236,7 @@ static gamut_status check_operations(struct entry *entry, const char *file, cons
                   "%s.gamut.h again with `gamut header` and build",
                   file, size, expected, d->name);
   for (size_t i = 0; i < own + d->variants + d->tasks; i++) {
-    const char *name = i < own                 ? kind_operation(d->kind, i)
-                       : i < own + d->variants ? d->variant[i - own].kernel
-                                               : d->task[i - own - d->variants].kernel;
+    const char *name = descriptor_operation(d, i);
     if (is_null(operations, i) && (i >= own || is_required(d, name)))
       return refuse(entry, trace, "'%s' registers no '%s', which %s", file, name,
                     i < own ? "plugins like this need" : "its YAML names as a kernel");

@@ -52,7 +52,7 @@ static gamut_status bind_materials(struct gamut_run *run)
   for (size_t b = 0; b < scene->bodies; b++) {
     size_t m = scene->body[b].material;
     if (!run->material[m])
-      TRY(material_new(&scene->material[m], run->registry, run->arena, run->fields, run->chunk,
+      TRY(material_new(&scene->material[m], run, run->registry, run->arena, run->fields, run->chunk,
                        run->threads, run->trace, &run->material[m]));
   }
 done:

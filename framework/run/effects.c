@@ -16,7 +16,7 @@ static gamut_status make_kernels(struct gamut_run *run, struct running_effect *e
     return trace_fail(run->trace, GAMUT_INTERNAL, "out of memory");
   for (size_t m = 0; m < scene->materials; m++)
     TRY(kernel_new(&effect->effect->instance, run->registry, run->arena, run->chunk,
-                   scene->material[m].extra, scene->material[m].density, run->trace,
+                   scene->material[m].extra, scene->material[m].density, run, run->trace,
                    &effect->kernel[m]));
   TRY(effect_new((const struct kernel *const *)effect->kernel, scene->materials, run->arena,
                  run->fields, run->threads, run->trace, &effect->bound));

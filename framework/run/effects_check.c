@@ -47,7 +47,7 @@ static gamut_status ask_opened(struct gamut_run *run, const struct material *mat
   struct bench *bench = NULL;
   enum { STATES = GAMUT_LANES };
   TRY(kernel_new(&material->eos, run->registry, run->arena, STATES, material->extra,
-                 material->density, run->trace, &eos));
+                 material->density, run, run->trace, &eos));
   TRY(bench_new(eos, NULL, NULL, STATES, run->trace, &bench));
   double *mu = bench_array(bench, "compression"), *energy = bench_array(bench, "energy");
   double *density = bench_array(bench, "reference_density");

@@ -59,6 +59,18 @@ static gamut_status host_fail_at(struct gamut_run *run, const struct gamut_value
   return status;
 }
 
+static gamut_status host_fail_in_file(struct gamut_run *run, const struct gamut_values *values,
+                                      const char *path, size_t line, const char *expected,
+                                      const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  gamut_status status =
+      host_messages_fail_in_file(run->trace, values, path, line, expected, format, list);
+  va_end(list);
+  return status;
+}
+
 static void host_warn(struct gamut_run *run, const char *format, ...)
 {
   va_list list;
@@ -372,6 +384,7 @@ static size_t host_chunk(const struct gamut_run *run)
 const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .fail = host_fail,
                                     .fail_at = host_fail_at,
+                                    .fail_in_file = host_fail_in_file,
                                     .warn = host_warn,
                                     HOST_OF_VALUES,
                                     .bodies = host_bodies,

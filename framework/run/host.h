@@ -10,15 +10,19 @@
 #define HOST_OF_VALUES                                                                             \
   .given = host_given, .real = host_real, .integer = host_integer, .boolean = host_boolean,        \
   .text = host_text, .vector = host_vector, .table = host_table, .entries = host_entries,          \
-  .entry_name = host_entry_name, .entry = host_entry
+  .entry_name = host_entry_name, .entry = host_entry, .file = host_file
 /* Gives values and the groups below them their host; accepts null. */
 void host_of_values(struct gamut_values *, const struct gamut_host *);
 
 /* host_messages.c: GAMUT_SCENE at the node, where there is one; at a value; what is no fault. */
 gamut_status host_messages_fail(struct trace *, gamut_status, const struct tree *,
                                 const char *format, va_list);
+/* At a value; of a table that comes from a file also at a row of it, "curve.3", from 0. */
 gamut_status host_messages_fail_at(struct trace *, const struct gamut_values *, const char *path,
                                    const char *expected, const char *format, va_list);
+gamut_status host_messages_fail_in_file(struct trace *, const struct gamut_values *,
+                                        const char *path, size_t line, const char *expected,
+                                        const char *format, va_list);
 void host_messages_warn(struct trace *, const char *format, va_list);
 void host_messages_note(struct trace *, const char *format, va_list);
 
@@ -33,6 +37,7 @@ gamut_status host_formula(struct gamut_run *, const struct gamut_values *, const
 double host_formula_value(const struct gamut_formula *, int thread, const double *variable);
 bool host_formula_uses(const struct gamut_formula *, size_t variable);
 const double *host_table(const struct gamut_values *, const char *path, size_t *rows);
+const char *host_file(const struct gamut_values *, const char *path, size_t *size);
 size_t host_entries(const struct gamut_values *, const char *path);
 const char *host_entry_name(const struct gamut_values *, const char *path, size_t index);
 const struct gamut_values *host_entry(const struct gamut_values *, const char *path, size_t index);

@@ -53,7 +53,7 @@ gamut_status host_law(struct gamut_run *run, const struct gamut_body *body, cons
   if (instance == &material->strength)
     TRY(strength_fits(material, run->scene->solver.descriptor, run->trace));
   TRY(kernel_new(instance, run->registry, run->arena, GAMUT_LANES, material->extra,
-                 material->density, run->trace, &law->kernel));
+                 material->density, run, run->trace, &law->kernel));
   TRY(kernel_try(law->kernel, run->trace));
   TRY(bench_new(law->kernel, NULL, NULL, count, run->trace, &law->bench));
   double *temperature = bench_array(law->bench, "temperature");

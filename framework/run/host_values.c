@@ -1,4 +1,5 @@
 #include <stdlib.h>
+#include <string.h>
 
 #include "registry/guard.h"
 #include "run/host.h"
@@ -39,9 +40,15 @@ bool host_given(const struct gamut_values *values, const char *path)
   return value && value->given;
 }
 
+/* Where `prepare` took a number that kernels see, what it makes of it would be wrong at points that
+ * have another one. */
 double host_real(const struct gamut_values *values, const char *path)
 {
-  return demand(values, path, 1u << VALUE_REAL | 1u << VALUE_INTEGER)->real;
+  const struct value *value = demand(values, path, 1u << VALUE_REAL | 1u << VALUE_INTEGER);
+  if (values->preparing && value->parameter->type == VALUE_REAL && !strchr(path, '.') &&
+      !value->parameter->prepared)
+    end_of(values, path, "which its kernels see at each point; `prepared: true` is for `prepare`");
+  return value->real;
 }
 
 long host_integer(const struct gamut_values *values, const char *path)
@@ -58,7 +65,16 @@ bool host_boolean(const struct gamut_values *values, const char *path)
 
 const char *host_text(const struct gamut_values *values, const char *path)
 {
-  return demand(values, path, 1u << VALUE_TEXT | 1u << VALUE_CHOICE | 1u << VALUE_BODY)->text;
+  return demand(values, path,
+                1u << VALUE_TEXT | 1u << VALUE_CHOICE | 1u << VALUE_BODY | 1u << VALUE_FILE)
+      ->text;
+}
+
+const char *host_file(const struct gamut_values *values, const char *path, size_t *size)
+{
+  const struct value *value = demand(values, path, 1u << VALUE_FILE);
+  *size = value->file ? value->file->length : 0;
+  return value->file ? value->file->content : NULL;
 }
 
 const double *host_vector(const struct gamut_values *values, const char *path, size_t *count)

@@ -44,6 +44,14 @@
  * the field in each run. A run without a study takes realisation 0.
  */
 
+/* A file that a value comes from. */
+struct value_file {
+  char *path;
+  char *content; /* of a FILE: all of it, with a zero byte behind its end; of a TABLE null */
+  size_t length;
+  size_t *line; /* of a TABLE: the line of each row; else null */
+};
+
 /* One checked value. Which members count depends on parameter->type. */
 struct value {
   const struct parameter *parameter;
@@ -51,7 +59,8 @@ struct value {
   bool given, present;         /* in the scene; has a value at all */
   double real;                 /* VALUE_REAL, INTEGER, BOOLEAN, number of a CHOICE; SI; the mean */
   struct distribution *random; /* null: certain */
-  const char *text;            /* CHOICE, TEXT, BODY */
+  const char *text;            /* CHOICE, TEXT, BODY; of a FILE its path */
+  struct value_file *file;     /* FILE, or TABLE that comes from one; else null */
   double *number;
   size_t numbers;                /* VECTOR, or TABLE row by row (numbers = rows x columns) */
   struct expression *expression; /* EXPRESSION */
@@ -73,6 +82,7 @@ struct gamut_values {
   char *path;              /* scene path: "materials.copper.strength" */
   const struct tree *node; /* the mapping, or null */
   struct parameter *own;   /* of a list or map: those that `parameter` points to; else null */
+  bool preparing;          /* seen by a `prepare`, which takes no numbers that kernels see */
 };
 #define values gamut_values
 

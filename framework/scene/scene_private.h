@@ -154,6 +154,12 @@ double *table_file_numbers(struct table_file *, size_t *count);
 void table_file_blame(struct table_file *, size_t row, const char *expected, const char *format,
                       ...) __attribute__((format(printf, 4, 5)));
 size_t table_file_line(const struct table_file *, size_t row);
+/* Whether it has as many rows as are declared; else a fault. */
+bool table_file_fits(struct table_file *);
+/* Where its numbers come from; the caller's. */
+struct value_file *table_file_source(const struct table_file *);
+/* Whether there are too few or too many rows, and how many there should be. */
+bool rows_expected(const struct parameter *, size_t rows, char *expected, size_t size);
 void table_file_free(struct table_file *); /* accepts null */
 bool levels_read(struct scene_reader *, const struct parameter *, const struct tree *,
                  struct value *);
@@ -213,6 +219,13 @@ bool value_read(struct scene_reader *, const struct parameter *, const struct tr
  * is called in messages. */
 bool group_read(struct scene_reader *, const struct parameter *, const struct tree *,
                 const char *path, const char *what, bool lenient, struct value *);
+/* value_file.c: a file that the scene names; it is kept as it was then. */
+bool file_value_read(struct scene_reader *, const struct parameter *, const struct tree *,
+                     struct value *);
+/* The path that a text in a file means: from that file's folder. False where it is too long. */
+bool path_beside(const struct tree *name, char *path, size_t size);
+struct value_file *value_file_new(const char *path);
+void value_file_free(struct value_file *); /* accepts null */
 /* value_nested.c; `node` null: no entries, no form. */
 bool entries_read(struct scene_reader *, const struct parameter *, const struct tree *,
                   const char *path, struct value *);

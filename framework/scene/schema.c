@@ -136,6 +136,7 @@ static json_t *bare_schema(const struct parameter *parameter)
     return json_pack("{s:o}", "enum", words(parameter->choice, parameter->choices));
   case VALUE_TEXT:
   case VALUE_BODY:
+  case VALUE_FILE:
   case VALUE_ENTRY:
     return json_pack("{s:s}", "type", "string");
   case VALUE_EXPRESSION:

@@ -38,14 +38,19 @@ struct table_file {
   size_t *row; /* where each row begins */
 };
 
+/* Whether a line ends with this character. */
+static bool ends_line(const char *c)
+{
+  return *c == '\n' || (*c == '\r' && c[1] != '\n');
+}
+
 /* Line and column of a byte, from 1, and a copy of its line. */
 static char *locate(const struct table_file *table, size_t byte, struct place *place)
 {
   size_t start = 0;
   *place = (struct place){.file = table->path, .line = 1, .column = 1, .width = 1};
   for (size_t k = 0; k < byte; k++) {
-    const char *c = &table->text[k];
-    if (*c != '\n' && (*c != '\r' || c[1] == '\n'))
+    if (!ends_line(&table->text[k]))
       continue;
     place->line += place->line < INT_MAX;
     start = k + 1;
@@ -281,17 +286,12 @@ static void parse(struct table_file *table)
 struct table_file *table_file_read(struct scene_reader *reader, const struct parameter *parameter,
                                    const struct tree *name)
 {
-  const char *from = name->place.file ? name->place.file : "";
-  const char *slash = strrchr(from, '/');
-  const bool absolute = name->text[0] == '/' || !slash;
   char why[160] = "the name is too long";
   struct table_file *table = scene_take(1, sizeof *table);
   table->reader = reader;
   table->parameter = parameter;
   table->node = name;
-  const int length = snprintf(table->path, sizeof table->path, "%.*s%s",
-                              absolute ? 0 : (int)(slash - from + 1), from, name->text);
-  if (length >= (int)sizeof table->path ||
+  if (!path_beside(name, table->path, sizeof table->path) ||
       !text_load(table->path, TABLE_BYTES_MAX, &table->text, &table->size, why, sizeof why)) {
     error_at_value(reader, name, "a CSV file beside this one", "table file '%.300s': %s",
                    table->path, why);
@@ -322,6 +322,31 @@ void table_file_blame(struct table_file *table, size_t row, const char *expected
   vsnprintf(words, sizeof words, format, list);
   va_end(list);
   fault(table, table->row[row], expected, "%s", words);
+}
+
+bool table_file_fits(struct table_file *table)
+{
+  char expected[WORDS_SIZE];
+  const size_t rows = table->numbers / table->parameter->choices;
+  if (!rows_expected(table->parameter, rows, expected, sizeof expected))
+    return true;
+  table_file_blame(table, rows - 1, expected, "the table '%s' ends after %zu row%s",
+                   table->parameter->name, rows, rows == 1 ? "" : "s");
+  return false;
+}
+
+struct value_file *table_file_source(const struct table_file *table)
+{
+  const size_t rows = table->numbers / table->parameter->choices;
+  struct value_file *file = value_file_new(table->path);
+  file->line = scene_take(rows, sizeof *file->line);
+  size_t line = 1;
+  for (size_t row = 0, at = 0; row < rows; row++) {
+    for (; at < table->row[row]; at++)
+      line += ends_line(table->text + at);
+    file->line[row] = line;
+  }
+  return file;
 }
 
 size_t table_file_line(const struct table_file *table, size_t row)

@@ -40,11 +40,28 @@ double *vector_read(struct scene_reader *reader, const struct tree *node, const 
   return NULL;
 }
 
+/* "at least 4 rows"; false where there are as many. */
+bool rows_expected(const struct parameter *parameter, size_t rows, char *expected, size_t size)
+{
+  if (rows < parameter->size_min)
+    snprintf(expected, size, "at least %zu rows", parameter->size_min);
+  else if (parameter->size_max && rows > parameter->size_max)
+    snprintf(expected, size, "at most %zu rows", parameter->size_max);
+  else
+    return false;
+  return true;
+}
+
 static bool table_in_place(struct scene_reader *reader, const struct parameter *parameter,
                            const struct tree *node, struct value *value)
 {
   size_t columns = parameter->choices, faults = reader->faults;
   char expected[WORDS_SIZE - 64], wanted[WORDS_SIZE];
+  if (rows_expected(parameter, node->children, wanted, sizeof wanted)) {
+    error_at_value(reader, node, wanted, "the table '%s' has %zu row%s", parameter->name,
+                   node->children, node->children == 1 ? "" : "s");
+    return false;
+  }
   list_text(parameter->choice, columns, expected, sizeof expected);
   snprintf(wanted, sizeof wanted, "each row is [%s]", expected);
   double *number = scene_take(node->children * columns, sizeof *number);
@@ -72,10 +89,13 @@ static bool table_from_file(struct scene_reader *reader, const struct parameter 
   expect_keys(reader, node, known, 1, "a table");
   if (name && name->kind == TREE_SCALAR && name->text[0]) {
     struct table_file *file = table_file_read(reader, parameter, name);
-    if (file)
+    const bool fine = file && table_file_fits(file);
+    if (fine) {
+      value->file = table_file_source(file);
       value->number = table_file_numbers(file, &value->numbers);
+    }
     table_file_free(file);
-    return file != NULL;
+    return fine;
   }
   error_at_value(reader, node, "rows in brackets, or {file: NAME.csv}", "table '%s' names no file",
                  parameter->name);
@@ -86,6 +106,12 @@ static bool table_from_file(struct scene_reader *reader, const struct parameter 
 static bool table_of_one(struct scene_reader *reader, const struct parameter *parameter,
                          const struct tree *node, struct value *value)
 {
+  char expected[WORDS_SIZE];
+  if (rows_expected(parameter, 1, expected, sizeof expected)) {
+    error_at_value(reader, node, expected, "one number is one row of the table '%s'",
+                   parameter->name);
+    return false;
+  }
   value->number = scene_take(2, sizeof *value->number);
   value->numbers = 2;
   return amount_read(reader, node, parameter->name, parameter->choice_unit[1], &value->number[1]);

@@ -171,6 +171,8 @@ bool value_read(struct scene_reader *reader, const struct parameter *parameter,
     return formula_read(reader, parameter, node, value);
   case VALUE_TABLE:
     return table_read(reader, parameter, node, value);
+  case VALUE_FILE:
+    return file_value_read(reader, parameter, node, value);
   case VALUE_LEVELS:
     return levels_read(reader, parameter, node, value);
   case VALUE_PLUGIN:
@@ -299,8 +301,8 @@ struct values *section_read(struct scene_reader *reader, const struct section *s
                        section->others, section->what);
   }
   for (size_t i = 0; i < section->count; i++) {
-    reader->pointwise = section->pointwise;
     const struct parameter *parameter = &section->parameter[i];
+    reader->pointwise = section->pointwise && !parameter->prepared;
     parameter_read(reader, section, parameter, parameter->set ? alternative : 0, &values->value[i]);
   }
   reader->pointwise = outside;
@@ -350,6 +352,7 @@ void values_free(struct values *values)
     struct value *value = &values->value[i];
     free(value->random);
     free(value->number);
+    value_file_free(value->file);
     expression_free(value->expression);
     for (size_t k = 0; k < value->copies; k++)
       expression_free(value->each[k]);

@@ -34,6 +34,18 @@ static gamut_status study_fail_at(struct gamut_run *run, const struct gamut_valu
   return status;
 }
 
+static gamut_status study_fail_in_file(struct gamut_run *run, const struct gamut_values *values,
+                                       const char *path, size_t line, const char *expected,
+                                       const char *format, ...)
+{
+  va_list list;
+  va_start(list, format);
+  gamut_status status =
+      host_messages_fail_in_file(host_of(run)->trace, values, path, line, expected, format, list);
+  va_end(list);
+  return status;
+}
+
 static void study_warn(struct gamut_run *run, const char *format, ...)
 {
   va_list list;
@@ -46,6 +58,7 @@ static const struct gamut_host study_host = {
     .size = sizeof(struct gamut_host),
     .fail = study_fail,
     .fail_at = study_fail_at,
+    .fail_in_file = study_fail_in_file,
     .warn = study_warn,
     HOST_OF_VALUES,
     HOST_OF_SUMS,

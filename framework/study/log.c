@@ -41,7 +41,7 @@ static uint32_t sum_of(const char *line, size_t size)
   return (uint32_t)(h ^ h >> 32);
 }
 
-/* Numbers behind the text: tables may come from files of their own. */
+/* What is behind the text: tables may come from files of their own. */
 static uint64_t hash_values(uint64_t h, const struct values *values)
 {
   for (size_t i = 0; values && i < values->count; i++) {
@@ -49,6 +49,8 @@ static uint64_t hash_values(uint64_t h, const struct values *values)
     h = hash(h, &value->real, sizeof value->real);
     if (value->number)
       h = hash(h, value->number, value->numbers * sizeof *value->number);
+    if (value->file && value->file->content)
+      h = hash(h, value->file->content, value->file->length);
     h = hash_values(h, value->group);
   }
   return h;

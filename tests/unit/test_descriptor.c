@@ -86,7 +86,7 @@ static const char whole[] =
     "inputs: [velocity_gradient, viscous_pressure?, burn: {unit: 1, components: 2}]\n"
     "outputs: [sound_speed]\n"
     "state:\n  stress: {}\n  damage: {unit: 1, initial: 0.5, doc: damage}\n"
-    "scratch: 24\nlaws: [eos, strength?]\n"
+    "scratch: 24\nlaws: [eos, strength?]\nprepare: true\n"
     "messages: {worn: {severity: note, text: worn}, gone: {severity: stop, text: gone}}\n"
     "variants: [{when: \"A == 0\", kernel: fluid, drops: [burn]}]\n"
     "measures: {mises: {unit: Pa, at: point, formula: \"abs(stress_xx) + damage\", doc: m}}\n";
@@ -121,8 +121,8 @@ static void test_layout(const struct descriptor *d)
 {
   struct slot *slots;
   size_t count = descriptor_layout(d, &slots);
-  /* 4 numbers, 9 + 1 + 2 inputs, 1 output, 12 + 2 of state, 2 laws, 24 scratch */
-  tap_ok(count == 4 + 12 + 1 + 14 + 2 + 24, "the block has %zu pointers, 57 expected", count);
+  /* 4 numbers, 9 + 1 + 2 inputs, 1 output, 12 + 2 of state, 2 laws, data, 24 scratch */
+  tap_ok(count == 4 + 12 + 1 + 14 + 2 + 1 + 24, "the block has %zu pointers, 58 expected", count);
   tap_ok(slots[2].kind == SLOT_PARAMETER && slots[2].index == 2 && slots[3].index == 7,
          "only numbers are seen by kernels");
   tap_ok(slots[4].component == 0 && slots[12].component == 8 && slots[12].components == 9,
@@ -147,7 +147,10 @@ static void test_header(const struct descriptor *d)
       "  const struct gamut_strength_law *strength; /* null if absent */\n",
       "/* Pa: strength */\n",
       "  double *scratch[24]; ",
-      "  GAMUT_ELASTICITY_OPS(struct sample)\n",
+      "struct sample_data; ",
+      "  const struct sample_data *data; ",
+      "  GAMUT_ELASTICITY_OPS(struct sample)\n  gamut_status (*prepare)(",
+      "struct sample_data **);\n  void (*release)(struct sample_data *);\n",
       "  void (*fluid)(const struct sample *);",
   };
   char text[16384];
@@ -267,6 +270,11 @@ static void test_refused(void)
 #define HOLDS(parameters)                                                                          \
   "plugin: effect/sample\nversion: 1\nsummary: s\nparameters:\n  " parameters "\n"
 
+/* An eos with these parameters, and what may follow the rest. */
+#define LAW_HOLDS(parameters, more)                                                                \
+  "plugin: eos/sample\nversion: 1\nsummary: s\nparameters:\n  " parameters "\n"                    \
+  "inputs: [compression]\noutputs: [pressure, sound_speed]\n" more
+
 static void test_identity(void)
 {
   static const struct {
@@ -286,6 +294,18 @@ static void test_identity(void)
        "outputs: [pressure, sound_speed, energy]\n",
        "belongs under 'state'"},
       {"[1, 2]\n", "no plugin's YAML"},
+      {LAW_HOLDS("a: {type: table, columns: {x: 1}, doc: d}", ""),
+       "kernels see no value of type table, and nothing prepares 'a' for them"},
+      {LAW_HOLDS("a: {unit: 1, prepared: true, doc: d}", ""), "no `prepare` reads 'a'"},
+      {LAW_HOLDS("a: {type: file, prepared: true, doc: d}", "prepare: true\n"),
+       "'prepared' has no meaning for a parameter of type file"},
+      {LAW_HOLDS("a: {unit: 1, prepared: true, doc: d}",
+                 "prepare: true\nderivatives: {of: pressure, by: [a]}\n"),
+       "'a' is neither a real parameter that kernels see nor an input"},
+      {LAW_HOLDS("data: {unit: 1, doc: d}", "prepare: true\n"), "'data' is declared twice"},
+      {HOLDS("a: {unit: 1, doc: d}\nprepare: true"), "has no kernels that could carry"},
+      {LAW_HOLDS("a: {type: table, columns: {x: 1}, size: 0, doc: d}", "prepare: true\n"),
+       "'0' is no size of a table"},
       {HOLDS("a: {type: list, doc: d}"), "nothing says what an entry of 'a' is"},
       {HOLDS("a: {type: map, of: {unit: 1, default: 2}, doc: d}"),
        "'default' has no meaning for an entry"},

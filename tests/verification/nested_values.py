@@ -88,13 +88,14 @@ def right(folder):
         found = None
         if process.returncode == 0:
             found = scenes.read(result, process).value("asked")
-        scenes.report(found == wanted, f"{name}: {measure} is {found} ({wanted})", process.stderr)
+        scenes.report(found == wanted, f"{name}: {measure} is {found} ({wanted})", [process.stderr])
 
 
 def refused(scene, folder, words):
     process, _ = scenes.attempt(scene, extra=("--plugin-path", folder))
     code, said = process.returncode, process.stderr
-    scenes.report(code == 3 and all(w in said for w in words), f"exit {code} (3), {words[0]}", said)
+    scenes.report(code == 3 and all(w in said for w in words),
+                  f"exit {code} (3), {words[0]}", [said])
 
 
 def wrong(folder):
@@ -120,7 +121,7 @@ def drawn(folder):
             rows = [row for row in csv.DictReader(file) if row["status"] == "ok"]
     weights = {row[path] for row in rows if row[path] == row["asked"]}
     scenes.report(len(weights) == 3, f"{path}: {len(weights)} weights of runs are measured (3)",
-                  process.stderr)
+                  [process.stderr])
 
 
 def main():

@@ -6,6 +6,9 @@
  * aligned, hold `count` values and are borrowed for the call. Uniform or varying in space: the
  * kernel cannot tell.
  *
+ * Data that the plugin prepared of the values for its kernels is a pointer `data` in the block, see
+ * `prepare` in <gamut/plugin.h>: one for all threads, constant.
+ *
  * Rules. A kernel keeps no state between calls, allocates nothing, prints nothing, writes every
  * output of every point, never writes an input, and calls nothing but <math.h>, <gamut/math.h> and
  * the laws that the core bound into its block. Different threads call it with different blocks at

@@ -195,8 +195,9 @@ struct gamut_host {
   /* Records an error for people and returns `status`. Thread-safe. */
   gamut_status (*fail)(struct gamut_run *, gamut_status status, const char *format, ...);
   /* As fail, naming the place in the scene of the value at `path` (dotted), or of another key that
-   * stands there, such as a body's `material`; "" is the whole. `fail` names the effect, the
-   * quantity, the random field or the solver that is at work. */
+   * stands there, such as a body's `material`; "" is the whole, "curve.3" the fourth row of a
+   * table. `fail` names the effect, the quantity, the random field or the solver that is at work.
+   */
   gamut_status (*fail_at)(struct gamut_run *, const struct gamut_values *, const char *path,
                           const char *expected, const char *format, ...);
   /* Records a warning: printed, and kept in the results. */
@@ -210,7 +211,7 @@ struct gamut_host {
    * which an argument of a measure names: its number. */
   long (*integer)(const struct gamut_values *, const char *path);
   bool (*boolean)(const struct gamut_values *, const char *path);
-  const char *(*text)(const struct gamut_values *, const char *path); /* also choice, body */
+  const char *(*text)(const struct gamut_values *, const char *path); /* also choice, body, file */
   const double *(*vector)(const struct gamut_values *, const char *path, size_t *count);
   /* A table parameter: `rows` rows of as many columns as were declared, row by row. */
   const double *(*table)(const struct gamut_values *, const char *path, size_t *rows);
@@ -372,6 +373,13 @@ struct gamut_host {
   size_t (*entries)(const struct gamut_values *, const char *path);
   const char *(*entry_name)(const struct gamut_values *, const char *path, size_t index);
   const struct gamut_values *(*entry)(const struct gamut_values *, const char *path, size_t index);
+
+  /* The bytes of a file that a parameter of type file names, as they were when the scene was read,
+   * with a zero byte behind the last; null where it is absent. `text` gives its path. Borrowed. */
+  const char *(*file)(const struct gamut_values *, const char *path, size_t *size);
+  /* As fail_at, at a line (from 1) of that file. */
+  gamut_status (*fail_in_file)(struct gamut_run *, const struct gamut_values *, const char *path,
+                               size_t line, const char *expected, const char *format, ...);
 };
 
 /* Every run begins with its host; the rest is the core's. */
@@ -383,6 +391,7 @@ struct gamut_run_head {
 
 #define gamut_fail(run, ...) (GAMUT_HOST(run)->fail((run), __VA_ARGS__))
 #define gamut_fail_at(run, ...) (GAMUT_HOST(run)->fail_at((run), __VA_ARGS__))
+#define gamut_fail_in_file(run, ...) (GAMUT_HOST(run)->fail_in_file((run), __VA_ARGS__))
 #define gamut_warn(run, ...) (GAMUT_HOST(run)->warn((run), __VA_ARGS__))
 
 static inline bool gamut_given(const struct gamut_values *v, const char *path)
@@ -424,6 +433,10 @@ static inline const double *gamut_table(const struct gamut_values *v, const char
   return GAMUT_HOST(v)->table(v, path, rows);
 }
 
+static inline const char *gamut_file(const struct gamut_values *v, const char *path, size_t *size)
+{
+  return GAMUT_HOST(v)->file(v, path, size);
+}
 static inline size_t gamut_entries(const struct gamut_values *v, const char *path)
 {
   return GAMUT_HOST(v)->entries(v, path);

@@ -57,7 +57,8 @@ struct gamut_plugin {
 };
 
 /* Operations of each kind, as members of the generated struct NAME_ops (B is `struct NAME`). After
- * them the generated header adds one kernel per entry of `variants` and of `tasks`, by name.
+ * them the generated header adds prepare and release, where the descriptor says so, then one kernel
+ * per entry of `variants` and of `tasks`, by name.
  * A null optional operation means the default in its comment.
  *
  * eos
@@ -89,6 +90,15 @@ struct gamut_plugin {
  *                nothing.
  *   Its kernels are the `tasks` of the descriptor.
  * random_field, estimator, solver: see their headers.
+ *
+ * Where the descriptor of an eos, strength, elasticity or effect with tasks says `prepare: true`:
+ *   prepare      required. Makes what the kernels find as `data` in their blocks, of the checked
+ *                values: called once whenever a material is bound (in a study in each run; of an
+ *                effect for each material), on one thread. The values are borrowed for the call.
+ *                Numbers that kernels see it may not ask for. May allocate. On failure returns a
+ *                status after gamut_fail; what it has made then is its own to free.
+ *   release      required. Frees it: once for each prepare that went well, when no kernel will be
+ *                called again. Of the run nothing may be asked then.
  */
 #define GAMUT_EOS_OPS(B)                                                                           \
   void (*pressure)(const B *);                                                                     \
