@@ -7,7 +7,6 @@
 #include "base/clock.h"
 #include "registry/guard.h"
 #include "run/restart.h"
-#include "store/checkpoint.h"
 
 struct writing {
   struct gamut_run *run;
@@ -93,33 +92,51 @@ done:
   return status;
 }
 
-static gamut_status put_set(const struct writing *w, const struct point_set *set)
+/* The arrays of a set, each by way of `row`, which has room for all of its rows. */
+static gamut_status put_arrays(const struct writing *w, const struct point_set *set,
+                               const struct packed *packed, double *row)
 {
-  gamut_status status = GAMUT_OK;
+  gamut_status status;
   char path[RESTART_PATH], name[RESTART_PATH];
   const char *body = set->open.body;
-  const int64_t points = (int64_t)set->open.points;
-  int64_t *first = calloc(set->open.blocks + 1, sizeof *first);
-  if (!first)
-    return trace_fail(w->run->trace, GAMUT_INTERNAL, "out of memory");
-  for (size_t b = 0; b <= set->open.blocks; b++)
-    first[b] = (int64_t)set->open.first[b];
-  TRY(put(w, restart_path(path, "bodies", body, "points"), CHECKPOINT_WHOLE, &points, 1));
-  TRY(put(w, restart_path(path, "bodies", body, "blocks"), CHECKPOINT_WHOLE, first,
-          set->open.blocks + 1));
-  TRY(put(w, restart_path(path, "bodies", body, "id"), CHECKPOINT_WHOLE, set->id, set->open.slots));
+  pack(packed, set->open.id, row);
+  TRY(put(w, restart_path(path, "bodies", body, "id"), CHECKPOINT_WHOLE, row, packed->rows));
   for (size_t f = 0; f < fields_count(w->run->fields); f++) {
     const struct field *field = fields_at(w->run->fields, f);
     for (unsigned k = 0; k < field->handle.components; k++) {
       const double *array = set_stored(set, field->handle, k);
       if (!array)
         continue;
+      pack(packed, array, row);
       restart_path(path, "bodies", body, restart_component(name, field, k));
-      TRY(put(w, path, CHECKPOINT_REAL, array, set->open.slots));
+      TRY(put(w, path, CHECKPOINT_REAL, row, packed->rows));
     }
   }
 done:
-  free(first);
+  return status;
+}
+
+static gamut_status put_set(const struct writing *w, const struct point_set *set)
+{
+  gamut_status status = GAMUT_OK;
+  char path[RESTART_PATH];
+  const char *body = set->open.body;
+  const int64_t points = (int64_t)set->open.points;
+  struct packed packed;
+  double *row = NULL;
+  TRY(packed_of(&set->open, &packed, w->run->trace));
+  row = malloc((packed.rows + 1) * sizeof *row);
+  if (!row) {
+    status = trace_fail(w->run->trace, GAMUT_INTERNAL, "out of memory");
+    goto done;
+  }
+  TRY(put(w, restart_path(path, "bodies", body, "points"), CHECKPOINT_WHOLE, &points, 1));
+  TRY(put(w, restart_path(path, "bodies", body, "block_points"), CHECKPOINT_WHOLE, packed.count,
+          packed.blocks));
+  TRY(put_arrays(w, set, &packed, row));
+done:
+  free(row);
+  packed_free(&packed);
   return status;
 }
 

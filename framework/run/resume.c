@@ -6,22 +6,15 @@
 
 #include "registry/guard.h"
 #include "run/restart.h"
-#include "store/checkpoint.h"
 #include "store/file.h"
 
-struct reading_back {
-  struct gamut_run *run;
-  const struct checkpoint *file;
-  const char *folder;
-};
-
-static gamut_status fill(const struct reading_back *r, const char *path, enum checkpoint_kind kind,
+gamut_status resume_fill(const struct reading_back *r, const char *path, enum checkpoint_kind kind,
                          void *data, size_t count)
 {
   return checkpoint_fill(r->file, path, kind, data, count, r->run->trace);
 }
 
-static gamut_status get(const struct reading_back *r, const char *path, enum checkpoint_kind kind,
+gamut_status resume_get(const struct reading_back *r, const char *path, enum checkpoint_kind kind,
                         void **data, size_t *count)
 {
   return checkpoint_get(r->file, path, kind, data, count, r->run->trace);
@@ -33,10 +26,10 @@ static gamut_status check_scene(const struct reading_back *r)
   void *text = NULL, *plugins = NULL;
   struct tree *was = NULL;
   size_t size;
-  TRY(get(r, "scene", CHECKPOINT_BYTES, &text, &size));
+  TRY(resume_get(r, "scene", CHECKPOINT_BYTES, &text, &size));
   TRY(tree_parse(text, size, CHECKPOINT_FILE, GAMUT_OUTPUT, r->run->trace, &was));
   TRY(restart_same_scene(was, r->run->scene->tree, r->folder, r->run->trace));
-  TRY(get(r, "plugins", CHECKPOINT_BYTES, &plugins, &size));
+  TRY(resume_get(r, "plugins", CHECKPOINT_BYTES, &plugins, &size));
   TRY(restart_same_plugins(r->run, plugins, r->folder));
 done:
   tree_free(was);
@@ -53,11 +46,11 @@ static gamut_status get_place(const struct reading_back *r, struct store_place *
   int64_t whole[RESTART_WHOLES];
   void *xdmf = NULL, *id = NULL;
   size_t size;
-  TRY(fill(r, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
-  TRY(fill(r, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
-  TRY(get(r, "run", CHECKPOINT_BYTES, &id, &size));
+  TRY(resume_fill(r, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
+  TRY(resume_fill(r, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
+  TRY(resume_get(r, "run", CHECKPOINT_BYTES, &id, &size));
   place->run = id;
-  TRY(get(r, "frames", CHECKPOINT_BYTES, &xdmf, &size));
+  TRY(resume_get(r, "frames", CHECKPOINT_BYTES, &xdmf, &size));
   *place = (struct store_place){.frames = (size_t)whole[1],
                                 .last_time = real[2],
                                 .last_step = (uint64_t)whole[2],
@@ -74,8 +67,8 @@ static gamut_status get_clock(const struct reading_back *r)
   struct gamut_run *run = r->run;
   double real[RESTART_REALS];
   int64_t whole[RESTART_WHOLES];
-  TRY(fill(r, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
-  TRY(fill(r, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
+  TRY(resume_fill(r, "clock", CHECKPOINT_REAL, real, RESTART_REALS));
+  TRY(resume_fill(r, "counts", CHECKPOINT_WHOLE, whole, RESTART_WHOLES));
   if (!isfinite(real[0]) || !isfinite(real[1])) {
     status = trace_fail(run->trace, GAMUT_OUTPUT, "the time in the checkpoint is damaged");
     goto done;
@@ -100,7 +93,7 @@ static gamut_status get_ledger(const struct reading_back *r)
   double *value = calloc(3 * lines + 1, sizeof *value);
   if (!value)
     return trace_fail(r->run->trace, GAMUT_INTERNAL, "out of memory");
-  gamut_status status = fill(r, "ledger", CHECKPOINT_REAL, value, 3 * lines);
+  gamut_status status = resume_fill(r, "ledger", CHECKPOINT_REAL, value, 3 * lines);
   for (size_t i = 0; i < lines && status == GAMUT_OK; i++) {
     r->run->ledger[i].start = value[3 * i];
     r->run->ledger[i].value = *r->run->line_value[i] = value[3 * i + 1];
@@ -129,9 +122,11 @@ static gamut_status get_history(const struct reading_back *r, struct history *h)
   void *time = NULL, *value = NULL;
   size_t times, values;
   double last[4];
-  TRY(fill(r, restart_path(path, "quantities", name, "last"), CHECKPOINT_REAL, last, 4));
-  TRY(get(r, restart_path(path, "quantities", name, "axis"), CHECKPOINT_REAL, &time, &times));
-  TRY(get(r, restart_path(path, "quantities", name, "value"), CHECKPOINT_REAL, &value, &values));
+  TRY(resume_fill(r, restart_path(path, "quantities", name, "last"), CHECKPOINT_REAL, last, 4));
+  TRY(resume_get(r, restart_path(path, "quantities", name, "axis"), CHECKPOINT_REAL, &time,
+                 &times));
+  TRY(resume_get(r, restart_path(path, "quantities", name, "value"), CHECKPOINT_REAL, &value,
+                 &values));
   if (times != values || !history_is_sound(last, time, times))
     status = trace_fail(r->run->trace, GAMUT_OUTPUT, "the curve '%s' in the checkpoint is damaged",
                         name);
@@ -146,64 +141,6 @@ done:
   return status;
 }
 
-/* A field that is kept now but was not then is one that a step writes before anybody reads it; but
- * a state would be lost. */
-static gamut_status get_component(const struct reading_back *r, const struct point_set *set,
-                                  const struct field *field, unsigned component, double *array)
-{
-  char path[RESTART_PATH], name[RESTART_PATH];
-  restart_path(path, "bodies", set->open.body, restart_component(name, field, component));
-  if (checkpoint_has(r->file, path))
-    return fill(r, path, CHECKPOINT_REAL, array, set->open.slots);
-  if (!field->history)
-    return GAMUT_OK;
-  return trace_fail_at(
-      r->run->trace, GAMUT_SCENE, NULL, "outputs", "leave it out, or --force to run the scene anew",
-      "'%s' is asked for now; it was not worked out in the run in '%s'", field->name, r->folder);
-}
-
-static gamut_status shape_set(const struct reading_back *r, struct point_set *set)
-{
-  gamut_status status;
-  char path[RESTART_PATH];
-  const char *body = set->open.body;
-  int64_t points;
-  void *id = NULL, *place = NULL;
-  size_t slots, places, *first = NULL;
-  TRY(fill(r, restart_path(path, "bodies", body, "points"), CHECKPOINT_WHOLE, &points, 1));
-  TRY(get(r, restart_path(path, "bodies", body, "id"), CHECKPOINT_WHOLE, &id, &slots));
-  TRY(get(r, restart_path(path, "bodies", body, "blocks"), CHECKPOINT_WHOLE, &place, &places));
-  first = calloc(places + 1, sizeof *first);
-  if (!first || places == 0) {
-    status = trace_fail(r->run->trace, GAMUT_INTERNAL, "no blocks of body '%s'", body);
-    goto done;
-  }
-  for (size_t b = 0; b < places; b++)
-    first[b] = (size_t)((int64_t *)place)[b];
-  TRY(set_reshape(set, (size_t)points, id, slots, first, places - 1, r->run->trace));
-done:
-  free(id);
-  free(place);
-  free(first);
-  return status;
-}
-
-static gamut_status get_set(const struct reading_back *r, struct point_set *set)
-{
-  gamut_status status;
-  TRY(shape_set(r, set));
-  for (size_t f = 0; f < fields_count(r->run->fields); f++) {
-    const struct field *field = fields_at(r->run->fields, f);
-    for (unsigned k = 0; k < field->handle.components; k++) {
-      double *array = set_stored(set, field->handle, k);
-      if (array)
-        TRY(get_component(r, set, field, k, array));
-    }
-  }
-done:
-  return status;
-}
-
 static gamut_status get_materials(const struct reading_back *r)
 {
   gamut_status status = GAMUT_OK;
@@ -215,9 +152,10 @@ static gamut_status get_materials(const struct reading_back *r)
     const char *name = run->scene->material[m].name;
     if (!run->material[m])
       continue;
-    TRY(fill(r, restart_path(path, "materials", name, "step_factor"), CHECKPOINT_REAL, &factor, 1));
-    TRY(fill(r, restart_path(path, "materials", name, "flags"), CHECKPOINT_WHOLE, count,
-             MATERIAL_COUNTS));
+    TRY(resume_fill(r, restart_path(path, "materials", name, "step_factor"), CHECKPOINT_REAL,
+                    &factor, 1));
+    TRY(resume_fill(r, restart_path(path, "materials", name, "flags"), CHECKPOINT_WHOLE, count,
+                    MATERIAL_COUNTS));
     material_step_factor(run->material[m]);
     material_step_factor_keep(run->material[m], factor);
     material_go_on(run->material[m], count);
@@ -232,7 +170,7 @@ static gamut_status get_state(const struct reading_back *r, const char *plugin, 
 {
   void *bytes;
   size_t size;
-  gamut_status status = get(r, path, CHECKPOINT_BYTES, &bytes, &size);
+  gamut_status status = resume_get(r, path, CHECKPOINT_BYTES, &bytes, &size);
   if (status != GAMUT_OK)
     return status;
   status = GUARDED(plugin, restore(self, bytes, size));
@@ -252,8 +190,8 @@ static gamut_status get_effects(const struct reading_back *r)
     const char *name = effect->effect->instance.name;
     int64_t count[FLAG_COUNTS];
     if (effect->bound) {
-      TRY(fill(r, restart_path(path, "effects", name, "flags"), CHECKPOINT_WHOLE, count,
-               FLAG_COUNTS));
+      TRY(resume_fill(r, restart_path(path, "effects", name, "flags"), CHECKPOINT_WHOLE, count,
+                      FLAG_COUNTS));
       effect_go_on(effect->bound, count);
     }
     if (effect->ops->save && effect->ops->restore)
@@ -275,7 +213,7 @@ static gamut_status get_all(const struct reading_back *r)
   for (size_t i = 0; i < run->probes; i++)
     TRY(get_history(r, run->history[i]));
   for (size_t s = 0; s < run->scene->bodies; s++)
-    TRY(get_set(r, run->set[s]));
+    TRY(resume_set(r, run->set[s]));
   TRY(get_materials(r));
   TRY(get_effects(r));
   TRY(get_state(r, run->scene->solver.descriptor->id, "solver", run->solver_self,

@@ -15,7 +15,7 @@
 #include "store/hdf5.h"
 
 /* Grows when a checkpoint written before cannot be read any more. */
-enum { FORMAT = 2 };
+enum { FORMAT = 3 };
 
 struct checkpoint {
   char *folder, *path;
@@ -178,8 +178,10 @@ gamut_status checkpoint_put(struct checkpoint *checkpoint, const char *path,
   hsize_t extent = count;
   hid_t links = H5Pcreate(H5P_LINK_CREATE), space = H5Screate_simple(1, &extent, NULL);
   H5Pset_create_intermediate_group(links, 1);
-  hid_t made = H5Dcreate2(checkpoint->file, path, type_of(kind, false), space, links, H5P_DEFAULT,
-                          H5P_DEFAULT);
+  hid_t plain = hdf5_plain_dataset(type_of(kind, false));
+  hid_t made =
+      H5Dcreate2(checkpoint->file, path, type_of(kind, false), space, links, plain, H5P_DEFAULT);
+  H5Pclose(plain);
   herr_t result = made < 0 ? -1 : 0;
   if (made >= 0 && count > 0)
     result = H5Dwrite(made, type_of(kind, true), H5S_ALL, H5S_ALL, H5P_DEFAULT, data);

@@ -187,11 +187,23 @@ herr_t hdf5_whole_attribute(hid_t at, const char *name, long long value)
   return attribute(at, name, H5T_STD_I64LE, H5T_NATIVE_LLONG, &value);
 }
 
+hid_t hdf5_plain_dataset(hid_t stored)
+{
+  hid_t plain = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_alloc_time(plain, H5D_ALLOC_TIME_EARLY);
+  if (H5Tis_variable_str(stored) <= 0)
+    H5Pset_fill_time(plain, H5D_FILL_TIME_NEVER);
+  H5Pset_obj_track_times(plain, false);
+  return plain;
+}
+
 herr_t hdf5_text_dataset(hid_t at, const char *name, const char *text)
 {
   herr_t result = -1;
   hid_t type = text_type(text), space = H5Screate(H5S_SCALAR);
-  hid_t made = H5Dcreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  hid_t plain = hdf5_plain_dataset(type);
+  hid_t made = H5Dcreate2(at, name, type, space, H5P_DEFAULT, plain, H5P_DEFAULT);
+  H5Pclose(plain);
   if (made >= 0) {
     result = H5Dwrite(made, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text);
     H5Dclose(made);
@@ -206,7 +218,9 @@ hid_t hdf5_dataset(hid_t at, const char *name, hid_t stored, hid_t memory, size_
 {
   hsize_t extent[2] = {rows, columns};
   hid_t space = H5Screate_simple(columns == 1 ? 1 : 2, extent, NULL);
-  hid_t made = H5Dcreate2(at, name, stored, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  hid_t plain = hdf5_plain_dataset(stored);
+  hid_t made = H5Dcreate2(at, name, stored, space, H5P_DEFAULT, plain, H5P_DEFAULT);
+  H5Pclose(plain);
   if (made >= 0 && rows > 0 && H5Dwrite(made, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) {
     H5Dclose(made);
     made = -1;

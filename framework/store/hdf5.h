@@ -34,6 +34,10 @@ herr_t hdf5_real_attribute(hid_t at, const char *name, double value);
 herr_t hdf5_reals_attribute(hid_t at, const char *name, const double *value, size_t count);
 herr_t hdf5_whole_attribute(hid_t at, const char *name, long long value);
 herr_t hdf5_text_dataset(hid_t at, const char *name, const char *text);
+/* How datasets of a type are made: laid out at once, never filled (texts of any length must be),
+ * without times, so that the same contents are the same bytes, whoever writes them and in whatever
+ * order. The caller closes it. */
+hid_t hdf5_plain_dataset(hid_t stored);
 /* rows x columns; columns 1 gives one dimension. Returns the open dataset. */
 hid_t hdf5_dataset(hid_t at, const char *name, hid_t stored, hid_t memory, size_t rows,
                    size_t columns, const void *data);

@@ -55,6 +55,7 @@ struct body {
   double lower[3], spacing[3]; /* of the lattice that its points are laid on */
   long count[3];
   size_t points;
+  size_t *before; /* points before each layer of the lattice, while they are laid */
 };
 
 /* Lines of the ledger and the running totals behind them. */

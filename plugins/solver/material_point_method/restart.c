@@ -1,5 +1,6 @@
-/* What the solver keeps between two steps beside the points: the grid with the boxes that the last
- * sweep left, in their order, and who was in contact. One list serves saving and restoring. */
+/* What the solver keeps between two steps beside the points: where their blocks are, the boxes that
+ * the last sweep left, and who was in contact. All by place, so that nothing depends on threads or
+ * on how memory is laid out. One list serves saving and restoring. */
 #include <string.h>
 
 #include "model.h"
@@ -27,83 +28,89 @@ static void pass(struct archive *a, void *data, size_t bytes)
   a->at += bytes;
 }
 
-/* Bytes from one build are nothing to another that lays its memory out otherwise. */
+/* What is counted below must be counted the same way by who reads it. */
 static void pass_layout(const struct model *m, struct archive *a)
 {
-  const uint64_t own[] = {sizeof(struct node_block),
-                          sizeof(struct point_block),
-                          sizeof(struct nodes),
-                          POINT_SUMS,
-                          NODE_SIZE,
-                          m->grid.tile_nodes,
-                          m->grid.block_nodes,
-                          m->planes.count,
-                          m->removal.takers};
+  const uint64_t own[] = {POINT_SUMS,          NODE_SIZE,       m->grid.tile_nodes,
+                          m->grid.block_nodes, m->planes.count, m->removal.takers};
   uint64_t found[sizeof own / sizeof *own];
   memcpy(found, own, sizeof own);
   pass(a, found, sizeof found);
   a->failed |= memcmp(found, own, sizeof own) != 0;
 }
 
-/* The box of one block of points: it goes in by way of a tile, as a sweep leaves it. */
-static void pass_box(struct model *m, size_t index, struct archive *a)
+/* Puts a box's lines into a tile, as a sweep leaves them, and from there into the box. */
+static void restore_box(struct model *m, size_t index, struct archive *a)
 {
   struct grid *g = &m->grid;
-  struct point_block *s = &g->source[index];
-  struct point_block copy = *s;
-  copy.box = NULL;
-  copy.opened = 0;
-  pass(a, &copy, sizeof copy);
-  if (a->failed)
-    return;
-  if (a->from != NULL)
-    *s = copy;
-  size_t nodes = 1;
-  for (int k = 0; k < 3; k++)
-    nodes *= s->upper[k] > s->lower[k] ? (size_t)(s->upper[k] - s->lower[k]) : 0;
-  if (a->from == NULL) {
-    pass(a, s->box, nodes * NODE_SIZE * sizeof *s->box);
-    return;
-  }
+  const struct point_block *s = &g->source[index];
   double *tile = m->work[0]->sums;
-  const size_t row =
-      nodes == 0 ? 0 : (size_t)(s->upper[0] - s->lower[0]) * NODE_SIZE * sizeof *tile;
-  a->failed = nodes > g->tile_nodes;
-  for (int z = s->lower[2]; z < s->upper[2] && !a->failed; z++)
-    for (int y = s->lower[1]; y < s->upper[1] && !a->failed; y++)
+  const size_t row = (size_t)(s->upper[0] - s->lower[0]) * NODE_SIZE * sizeof *tile;
+  for (int z = s->lower[2]; z < s->upper[2]; z++)
+    for (int y = s->lower[1]; y < s->upper[1]; y++)
       pass(a, tile + NODE_SIZE * (s->lower[0] + g->tile * (y + g->tile * z)), row);
   if (!a->failed)
     a->failed = grid_leave(g, index, tile) != GAMUT_OK;
 }
 
-/* Makes the grid anew, block by block in the old order. */
-static void pass_grid(struct model *m, struct archive *a)
+/* The box of one block of points; its nodes must lie in a tile. */
+static void pass_box(struct model *m, size_t index, struct archive *a)
 {
-  struct grid *g = &m->grid;
-  size_t blocks = g->blocks, sources = g->sources;
-  pass(a, &blocks, sizeof blocks);
-  pass(a, &sources, sizeof sources);
-  if (a->from != NULL && !a->failed)
-    a->failed = grid_begin(g) != GAMUT_OK || grid_sources(g, sources) != GAMUT_OK;
-  for (size_t b = 0; b < blocks && !a->failed; b++) {
-    struct node_block block = {0};
-    if (a->from == NULL)
-      block = g->block[b];
-    block.line = block.filter = NULL;
-    pass(a, &block, sizeof block);
-    int32_t number = 0;
-    if (a->from == NULL || a->failed)
-      continue;
-    if (grid_block(g, block.at, &number) == GAMUT_OK && (size_t)number == b)
-      g->block[b] = block;
-    else
-      a->failed = true;
+  const struct grid *g = &m->grid;
+  struct point_block *s = &g->source[index];
+  pass(a, s->lower, sizeof s->lower);
+  pass(a, s->upper, sizeof s->upper);
+  size_t nodes = 1;
+  for (unsigned k = 0; k < 3 && !a->failed; k++) {
+    const int end = k < g->dimension ? g->tile : 1;
+    a->failed = s->lower[k] < 0 || s->upper[k] > end;
+    nodes *= s->upper[k] > s->lower[k] ? (size_t)(s->upper[k] - s->lower[k]) : 0;
   }
-  if (a->failed)
+  if (a->failed || nodes == 0) /* none where all points have left */
     return;
   if (a->from != NULL)
-    a->failed |= grid_forget_boxes(g) != GAMUT_OK;
-  for (size_t s = 0; s < sources && !a->failed; s++)
+    restore_box(m, index, a);
+  else
+    pass(a, s->box, nodes * NODE_SIZE * sizeof *s->box);
+}
+
+/* The places of the blocks of points, from which the grid is built as a sort builds it. */
+static void pass_places(struct model *m, struct archive *a)
+{
+  struct grid *g = &m->grid;
+  uint64_t sources = g->sources;
+  pass(a, &sources, sizeof sources);
+  if (a->from == NULL) {
+    for (size_t i = 0; i < sources; i++)
+      pass(a, g->block[g->source[i].block].at, sizeof g->block->at);
+    return;
+  }
+  const size_t begin = a->at, size = sizeof g->block->at;
+  if (a->failed || sources > (a->size - begin) / size) {
+    a->failed = true;
+    return;
+  }
+  a->failed = grid_forget_boxes(g) != GAMUT_OK;
+  g->sources = 0;
+  a->failed = a->failed || grid_begin(g) != GAMUT_OK;
+  int32_t at[3], number;
+  for (size_t i = 0; i < sources && !a->failed; i++) {
+    pass(a, at, size);
+    for (int k = 0; k < 3; k++)
+      a->failed |= at[k] < -GRID_REACH || at[k] > GRID_REACH;
+    a->failed = a->failed || grid_block(g, at, &number) != GAMUT_OK;
+  }
+  a->failed = a->failed || grid_finish(g) != GAMUT_OK || grid_sources(g, sources) != GAMUT_OK;
+  for (size_t i = 0; i < sources && !a->failed; i++) {
+    memcpy(at, a->from + begin + i * size, size);
+    grid_source(g, i, places_find(g->table, at));
+  }
+}
+
+static void pass_grid(struct model *m, struct archive *a)
+{
+  pass_places(m, a);
+  for (size_t s = 0; s < m->grid.sources && !a->failed; s++)
     pass_box(m, s, a);
 }
 

@@ -27,10 +27,11 @@ void layout_place(const struct body *b, unsigned dimension, const long at[3], do
     x[k] = k < dimension ? b->lower[k] + ((double)at[k] + 0.5) * b->spacing[k] : 0.0;
 }
 
-/* Next place of the lattice, x fastest; false past the end. */
-static bool lattice_next(const struct body *b, long at[3])
+/* Next place of a layer of the lattice, x fastest; false past its end. Layers are counted along the
+ * last axis, so that the number of the points before a layer is that of its first point. */
+static bool layer_next(const struct body *b, unsigned dimension, long at[3])
 {
-  for (unsigned k = 0; k < 3; k++) {
+  for (unsigned k = 0; k + 1 < dimension; k++) {
     if (++at[k] < b->count[k])
       return true;
     at[k] = 0;
@@ -106,6 +107,31 @@ static gamut_status expect_points(struct model *m, const struct body *b, double 
   return room != NULL ? GAMUT_OK : GAMUT_INTERNAL;
 }
 
+static size_t points_of_layer(const struct model *m, const struct body *b, long layer)
+{
+  long at[3] = {0, 0, 0};
+  at[m->dimension - 1] = layer;
+  size_t points = 0;
+  do {
+    double x[3];
+    layout_place(b, m->dimension, at, x);
+    points += m->host->body_contains(b->scene, x);
+  } while (layer_next(b, m->dimension, at));
+  return points;
+}
+
+/* Points of all layers, and before each. */
+static bool count_layers(struct model *m, struct body *b)
+{
+  const size_t layers = (size_t)b->count[m->dimension - 1];
+  b->before = gamut_allocate(m->run, "solver", layers * sizeof *b->before);
+  for (size_t l = 0; b->before != NULL && l < layers; l++) {
+    b->before[l] = b->points;
+    b->points += points_of_layer(m, b, (long)l);
+  }
+  return b->before != NULL;
+}
+
 static gamut_status lay_lattice(struct model *m, const struct gamut_values *values, struct body *b)
 {
   const char *name = m->host->body_name(b->scene);
@@ -152,12 +178,8 @@ static gamut_status lay_lattice(struct model *m, const struct gamut_values *valu
   status = expect_points(m, b, places);
   if (status != GAMUT_OK)
     return status;
-  long at[3] = {0, 0, 0};
-  do {
-    double x[3];
-    layout_place(b, m->dimension, at, x);
-    b->points += m->host->body_contains(b->scene, x);
-  } while (lattice_next(b, at));
+  if (!count_layers(m, b))
+    return GAMUT_INTERNAL;
   if (b->points == 0)
     return gamut_fail_at(m->run, values, "cell", "a smaller cell", "body '%s' holds no point",
                          name);
@@ -275,10 +297,11 @@ static gamut_status fill_listed(struct model *m, const struct body *b, const dou
   return status;
 }
 
-static gamut_status fill_lattice(struct model *m, const struct body *b)
+static gamut_status fill_layer(struct model *m, const struct body *b, long layer)
 {
   long at[3] = {0, 0, 0};
-  size_t slot = 0;
+  at[m->dimension - 1] = layer;
+  size_t slot = b->before[layer];
   do {
     double place[3];
     layout_place(b, m->dimension, at, place);
@@ -288,8 +311,18 @@ static gamut_status fill_lattice(struct model *m, const struct body *b)
         fill_point(m, b, place, slot++, place_volume(m, b, place), b->spacing);
     if (status != GAMUT_OK)
       return status;
-  } while (lattice_next(b, at));
+  } while (layer_next(b, m->dimension, at));
   return GAMUT_OK;
+}
+
+static gamut_status fill_lattice(struct model *m, struct body *b)
+{
+  gamut_status status = GAMUT_OK;
+  for (long l = 0; l < b->count[m->dimension - 1] && status == GAMUT_OK; l++)
+    status = fill_layer(m, b, l);
+  gamut_release(m->run, b->before);
+  b->before = NULL;
+  return status;
 }
 
 static gamut_status fill_body(struct model *m, struct body *b)
@@ -302,8 +335,7 @@ static gamut_status fill_body(struct model *m, struct body *b)
   const gamut_status status = given ? fill_listed(m, b, place, volume) : fill_lattice(m, b);
   if (status != GAMUT_OK)
     return status;
-  for (size_t i = 0; i < b->points; i++)
-    whole += mass[i];
+  gamut_sum(m->run, mass, b->points, 1, &whole);
   const double correction = given ? 1.0 : volume_correction(m, b, whole);
   for (size_t i = 0; i < b->points; i++) {
     if (reference != NULL)
