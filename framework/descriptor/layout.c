@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "descriptor/descriptor_private.h"
 #include "field/catalogue.h"
@@ -148,12 +149,7 @@ size_t descriptor_layout(const struct descriptor *descriptor, struct slot **slot
 
 static uint64_t digest_text(uint64_t digest, const char *text)
 {
-  const unsigned char *c = (const unsigned char *)text;
-  do {
-    digest ^= *c;
-    digest *= UINT64_C(1099511628211);
-  } while (*c++);
-  return digest;
+  return hash_bytes(digest, text, strlen(text) + 1);
 }
 
 static uint64_t digest_number(uint64_t digest, size_t number)
@@ -183,7 +179,7 @@ void descriptor_seal(struct descriptor *d)
 {
   struct slot *slots;
   size_t count = descriptor_layout(d, &slots);
-  uint64_t digest = digest_text(UINT64_C(14695981039346656037), d->id);
+  uint64_t digest = digest_text(HASH_START, d->id);
   for (size_t i = 0; i < count; i++) {
     digest = digest_number(digest, slots[i].kind);
     digest = digest_number(digest, slots[i].component);

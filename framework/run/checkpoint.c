@@ -28,13 +28,16 @@ static gamut_status put_scene(const struct writing *w)
 {
   gamut_status status;
   char *scene = restart_scene_text(w->run->scene->tree), *plugins = restart_plugins_text(w->run);
-  if (!scene || !plugins) {
+  char *files = restart_files_text(w->run->scene);
+  if (!scene || !plugins || !files) {
     status = trace_fail(w->run->trace, GAMUT_INTERNAL, "out of memory");
     goto done;
   }
   TRY(put_text(w, "scene", scene));
   TRY(put_text(w, "plugins", plugins));
+  TRY(put_text(w, "files", files));
 done:
+  free(files);
   free(scene);
   free(plugins);
   return status;

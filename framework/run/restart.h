@@ -49,6 +49,14 @@ gamut_status resume_get(const struct reading_back *, const char *path, enum chec
 /* resume_sets.c: blocks, ids and stored fields of a set. */
 gamut_status resume_set(const struct reading_back *, struct point_set *);
 
+/* A line "digest key" for each file of the scene. Allocated; null without memory. */
+char *restart_files_text(const struct scene *);
+/* input_files.c: whether the files are those that these lines are of. */
+gamut_status restart_same_files(const struct scene *, const char *was, const char *folder,
+                                struct trace *);
+/* The same by the summary in the folder of a run that ended. */
+gamut_status restart_same_summary(const struct scene *, const char *folder, struct trace *);
+
 /* compare.c: whether a run may go on as this one. Only solver.end and outputs may differ; the first
  * difference is named. */
 gamut_status restart_same_scene(const struct tree *was, const struct tree *now, const char *folder,

@@ -23,7 +23,7 @@ gamut_status resume_get(const struct reading_back *r, const char *path, enum che
 static gamut_status check_scene(const struct reading_back *r)
 {
   gamut_status status;
-  void *text = NULL, *plugins = NULL;
+  void *text = NULL, *plugins = NULL, *files = NULL;
   struct tree *was = NULL;
   size_t size;
   TRY(resume_get(r, "scene", CHECKPOINT_BYTES, &text, &size));
@@ -31,7 +31,10 @@ static gamut_status check_scene(const struct reading_back *r)
   TRY(restart_same_scene(was, r->run->scene->tree, r->folder, r->run->trace));
   TRY(resume_get(r, "plugins", CHECKPOINT_BYTES, &plugins, &size));
   TRY(restart_same_plugins(r->run, plugins, r->folder));
+  TRY(resume_get(r, "files", CHECKPOINT_BYTES, &files, &size));
+  TRY(restart_same_files(r->run->scene, files, r->folder, r->run->trace));
 done:
+  free(files);
   tree_free(was);
   free(text);
   free(plugins);
@@ -330,6 +333,7 @@ gamut_status run_finished(const struct scene *scene, const char *folder, struct 
     goto done;
   TRY(tree_read(path, GAMUT_OUTPUT, trace, &was));
   TRY(restart_same_scene(was, scene->tree, folder, trace));
+  TRY(restart_same_summary(scene, folder, trace));
   const struct tree *before = tree_at(was, "solver.end"), *now = tree_at(scene->tree, "solver.end");
   *finished = !before || !now ? before == now : strcmp(before->text, now->text) == 0;
 done:

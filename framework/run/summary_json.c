@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "run/run_private.h"
+#include "scene/input_files.h"
 
 /* JSON has no NaN: such a number is null. */
 static json_t *number(double value)
@@ -184,6 +185,7 @@ char *run_summary(const struct gamut_run *run, gamut_status status,
   json_object_set_new(root, "time", number(run->time));
   json_object_set_new(root, "seed", json_integer(node ? strtoll(node->text, NULL, 10) : 1));
   json_object_set_new(root, "plugins", plugins_json(registry));
+  json_object_set_new(root, "input_files", input_files_json(run->scene));
   json_object_set_new(root, "quantities", quantities_json(run));
   json_object_set_new(root, "ledger", ledger_json(run));
   json_object_set_new(root, "flags", flags_json(run));

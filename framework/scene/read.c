@@ -147,6 +147,7 @@ void scene_free(struct scene *scene)
   }
   for (size_t i = 0; i < scene->quantities; i++)
     values_free(scene->quantity[i].arguments);
+  free(scene->input_file);
   free(scene->material);
   free(scene->body);
   free(scene->effect);

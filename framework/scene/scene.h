@@ -222,6 +222,13 @@ struct random_parameter {
   const struct descriptor *descriptor; /* of what holds between them; null: nothing */
 };
 
+/* A file whose contents are part of the scene. */
+struct input_file {
+  const char *key; /* where the scene names it: "materials.metal.eos.curve.file" */
+  const char *path;
+  char digest[17]; /* of its bytes when the scene was read */
+};
+
 struct scene {
   const char *file; /* as given */
   const char *title;
@@ -237,6 +244,8 @@ struct scene {
   const struct tree *effects_node; /* where their names are looked up */
   struct quantity *quantity;
   size_t quantities;
+  struct input_file *input_file; /* in the order in which they were read; owned */
+  size_t input_files;
   double output_every;                      /* 0: none; <0: -frames */
   double checkpoint_wall, checkpoint_every; /* s of wall time, axis; 0: at signals only */
   const char **output_field;

@@ -219,6 +219,9 @@ bool value_read(struct scene_reader *, const struct parameter *, const struct tr
  * is called in messages. */
 bool group_read(struct scene_reader *, const struct parameter *, const struct tree *,
                 const char *path, const char *what, bool lenient, struct value *);
+/* input_files.c: the scene's record of a file that the node names. */
+void input_file_record(struct scene_reader *, const struct tree *, const char *path,
+                       const char *bytes, size_t size);
 /* value_file.c: a file that the scene names; it is kept as it was then. */
 bool file_value_read(struct scene_reader *, const struct parameter *, const struct tree *,
                      struct value *);

@@ -297,6 +297,7 @@ struct table_file *table_file_read(struct scene_reader *reader, const struct par
                    table->path, why);
     table->failed = true;
   } else {
+    input_file_record(reader, name, table->path, table->text, table->size);
     parse(table);
   }
   if (!table->failed)

@@ -53,6 +53,7 @@ bool file_value_read(struct scene_reader *reader, const struct parameter *parame
     free(content);
     return false;
   }
+  input_file_record(reader, node, path, content, length);
   value->file = value_file_new(path);
   value->file->content = content;
   value->file->length = length;

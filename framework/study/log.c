@@ -18,6 +18,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/hash.h"
 #include "base/memory.h"
 #include "store/file.h"
 #include "study/study_private.h"
@@ -25,32 +26,20 @@
 #define LOG_VERSION "3 "
 enum { SUM_LENGTH = 10 }; /* " ~" and eight digits */
 
-static const uint64_t hash_start = UINT64_C(0xcbf29ce484222325);
-
-static uint64_t hash(uint64_t h, const void *bytes, size_t size)
-{
-  const unsigned char *byte = bytes;
-  for (size_t i = 0; i < size; i++)
-    h = (h ^ byte[i]) * UINT64_C(0x100000001b3);
-  return h;
-}
-
 static uint32_t sum_of(const char *line, size_t size)
 {
-  uint64_t h = hash(hash_start, line, size);
+  uint64_t h = hash_bytes(HASH_START, line, size);
   return (uint32_t)(h ^ h >> 32);
 }
 
-/* What is behind the text: tables may come from files of their own. */
+/* What is behind the text: defaults. */
 static uint64_t hash_values(uint64_t h, const struct values *values)
 {
   for (size_t i = 0; values && i < values->count; i++) {
     const struct value *value = &values->value[i];
-    h = hash(h, &value->real, sizeof value->real);
+    h = hash_bytes(h, &value->real, sizeof value->real);
     if (value->number)
-      h = hash(h, value->number, value->numbers * sizeof *value->number);
-    if (value->file && value->file->content)
-      h = hash(h, value->file->content, value->file->length);
+      h = hash_bytes(h, value->number, value->numbers * sizeof *value->number);
     h = hash_values(h, value->group);
   }
   return h;
@@ -71,9 +60,11 @@ void log_digest(struct study *study)
       fprintf(file, "%s %s %s\n", d->id, d->version, d->digest);
   }
   memory_close(file, &text);
-  uint64_t h = hash(hash_start, text, size);
+  uint64_t h = hash_bytes(HASH_START, text, size);
   free(text);
-  h = hash(h, &scene->seed, sizeof scene->seed);
+  h = hash_bytes(h, &scene->seed, sizeof scene->seed);
+  for (size_t i = 0; i < scene->input_files; i++)
+    h = hash_bytes(h, scene->input_file[i].digest, sizeof scene->input_file[i].digest);
   h = hash_values(h, scene->solver.values);
   h = hash_values(h, scene->estimator.values);
   for (size_t i = 0; i < scene->materials; i++) {
@@ -414,7 +405,8 @@ static gamut_status read_line(struct study *study, const char *path, char *line,
     if (strncmp(line, RESULT_LOG_MARK LOG_VERSION, strlen(RESULT_LOG_MARK LOG_VERSION)) != 0)
       return refuse(study, path, number, "it is no log of this gamut's studies");
     if (strcmp(line, expected) != 0)
-      return refuse(study, path, number, "the scene, the seed or a plugin is another than it was");
+      return refuse(study, path, number,
+                    "the scene, a file that it names, the seed or a plugin is another than it was");
     return GAMUT_OK;
   }
   bool good = false;

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "scene/input_files.h"
 #include "study/study_private.h"
 
 /* JSON has neither NaN nor infinity: such a number is null. */
@@ -409,6 +410,7 @@ char *study_summary(const struct study *study, gamut_status status)
   json_object_set_new(root, "status", json_string(ending));
   json_object_set_new(root, "seed", json_integer((json_int_t)scene->seed));
   json_object_set_new(root, "plugins", plugins_json(study->registry));
+  json_object_set_new(root, "input_files", input_files_json(scene));
   json_object_set_new(root, "quantities", quantities_json(study, status));
   json_object_set_new(root, "study", study_json(study, status));
   json_object_set_new(root, "cost", cost_json(study));
