@@ -50,7 +50,7 @@ static gamut_status write_file(struct command *command, const char *from, const 
 {
   gamut_status status = GAMUT_OK;
   char path[PATH_MAX], line[512];
-  const bool named = strncmp(item, "NAME.", 5) == 0;
+  const bool named = strncmp(item, "NAME", 4) == 0;
   snprintf(path, sizeof path, "%s/%s", from, item);
   FILE *skeleton = fopen(path, "r");
   if (!skeleton)

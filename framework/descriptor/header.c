@@ -113,6 +113,30 @@ static void put_constants(FILE *file, const struct descriptor *d)
   }
 }
 
+static bool has_kernels(const struct descriptor *d)
+{
+  return d->kind == GAMUT_KIND_EOS || d->kind == GAMUT_KIND_STRENGTH ||
+         d->kind == GAMUT_KIND_ELASTICITY || d->kind == GAMUT_KIND_EFFECT;
+}
+
+/* Plugins that are kernels and nothing else: what asks the core is left out. */
+static bool only_kernels(const struct descriptor *d)
+{
+  return has_kernels(d) && d->kind != GAMUT_KIND_EFFECT && !d->prepare;
+}
+
+static void host_begin(FILE *file, const struct descriptor *d)
+{
+  if (has_kernels(d))
+    fputs("#ifndef GAMUT_KERNEL\n", file);
+}
+
+static void host_end(FILE *file, const struct descriptor *d)
+{
+  if (has_kernels(d))
+    fputs("#endif\n", file);
+}
+
 /* Where a parameter stands: below what, and the path by which values are asked for it. */
 struct stand {
   const char *prefix, *path; /* of names in C, "diameter_"; of values, "transfer." */
@@ -134,11 +158,16 @@ static void put_choice(FILE *file, const struct descriptor *d, const struct stan
       put_upper(file, part[i]);
     fputs(k + 1 < p->choices ? ",\n" : "\n", file);
   }
+  fputs("};\n", file);
+  if (only_kernels(d))
+    return;
+  host_begin(file, d);
   fprintf(file,
-          "};\nstatic inline enum %s_%s%s\n%s_%s%s_of(const struct gamut_values *values)\n{\n"
+          "static inline enum %s_%s%s\n%s_%s%s_of(const struct gamut_values *values)\n{\n"
           "  return (enum %s_%s%s)gamut_choice(values, \"%s%s\");\n}\n",
           d->name, stand->prefix, p->name, d->name, stand->prefix, p->name, d->name, stand->prefix,
           p->name, stand->path, p->name);
+  host_end(file, d);
 }
 
 /* An enum of each choice and what turns the scene's values into it, so that a `switch` without a
@@ -162,7 +191,7 @@ static void put_choices(FILE *file, const struct descriptor *d, const struct sta
 static void put_measures(FILE *file, const struct descriptor *d)
 {
   char prefix[256];
-  if (d->measures == 0)
+  if (d->measures == 0 || only_kernels(d)) /* the core takes them from the descriptor */
     return;
   fprintf(file, "\nenum %s_measure {\n", d->name);
   for (size_t i = 0; i < d->measures; i++) {
@@ -172,8 +201,10 @@ static void put_measures(FILE *file, const struct descriptor *d)
     put_upper(file, d->measure[i].name);
     fputs(i + 1 < d->measures ? ",\n" : "\n", file);
   }
+  fputs("};\n", file);
+  host_begin(file, d);
   fprintf(file,
-          "};\n/* Of a name that is none of them: a number that is none of these. */\n"
+          "/* Of a name that is none of them: a number that is none of these. */\n"
           "static inline enum %s_measure %s_measure_of(const char *name)\n{\n"
           "  static const char *const names[] = {",
           d->name, d->name);
@@ -183,6 +214,7 @@ static void put_measures(FILE *file, const struct descriptor *d)
           "};\n  unsigned k = 0;\n  while (k < %zu && strcmp(name, names[k]) != 0)\n    k++;\n"
           "  return (enum %s_measure)k;\n}\n",
           d->measures, d->name);
+  host_end(file, d);
   for (size_t i = 0; i < d->measures; i++) {
     snprintf(prefix, sizeof prefix, "%s_", d->measure[i].name);
     put_choices(file, d, &(struct stand){prefix, ""}, d->measure[i].argument,
@@ -240,6 +272,20 @@ static void put_operations(FILE *file, const struct descriptor *d)
   fputs("};\n", file);
 }
 
+static void put_includes(FILE *file, const struct descriptor *d)
+{
+  if (d->measures && !only_kernels(d))
+    fputs("#include <string.h>\n\n", file);
+  if (only_kernels(d))
+    fputs("#include <gamut/kernel.h>\n\n", file);
+  else if (has_kernels(d))
+    fputs("#ifdef GAMUT_KERNEL\n#include <gamut/kernel.h>\n#else\n#include "
+          "<gamut/plugin.h>\n#endif\n\n",
+          file);
+  else
+    fputs("#include <gamut/plugin.h>\n\n", file);
+}
+
 void descriptor_header(const struct descriptor *d, FILE *file)
 {
   fprintf(file, "/* Generated from %s.yaml by `gamut header`; edit that instead. */\n#ifndef ",
@@ -248,9 +294,7 @@ void descriptor_header(const struct descriptor *d, FILE *file)
   fputs("_GAMUT_H\n#define ", file);
   put_upper(file, d->name);
   fputs("_GAMUT_H\n\n", file);
-  if (d->measures)
-    fputs("#include <string.h>\n\n", file);
-  fputs("#include <gamut/plugin.h>\n\n", file);
+  put_includes(file, d);
   put_constants(file, d);
   const struct stand top = {"", ""};
   put_choices(file, d, &top, d->parameter, d->parameters);

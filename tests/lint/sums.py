@@ -6,9 +6,12 @@ import re
 
 import tap
 
-# Loops to the end of a set's slots, or over blocks of points or of nodes.
-LOOP = re.compile(r"\bfor \((?:size_t |int )?(\w+)\b[^;]*;"
-                  r"[^;]*<\s*[\w.>\[\]()-]*\b(?:slots|blocks)\b")
+# Loops to the end of a set's slots, or over blocks of points or of nodes: up, down, by a pointer,
+# and where the number has another name.
+LOOP = re.compile(r"\b(?:for|while) \(")
+BOUND = r"\b(?:slots|blocks)\b"
+RENAMED = re.compile(rf"\b(\w+) = (?:\w+(?:->|\.))*{BOUND}\s*[,;]")
+COUNTER = re.compile(r"\(\s*(?:const )?(?:\w+ )?\*?(\w+)")
 ADDED = re.compile(r"(?<![\w\])>.])([*(]*(?:\w+(?:\[[^\]]*\])?(?:->|\.))*(\w+)\)*((?:\[[^\]]*\])*))"
                    r"\s*[+-]=")
 CALL = re.compile(r"\bgamut_sum\(|->sum\(")
@@ -19,13 +22,23 @@ BAD = ("double sum = 0.0;\nfor (size_t i = 0; i < set->slots; i++)\n  sum += mas
        "double total[3];\nfor (size_t b = 0; b < set->blocks; b++)\n  for (int k = 0; k < 3; k++)\n"
        "    total[k] += row[b][k];",
        "struct sums { double mass; };\nfor (size_t i = 0; i < c->set->slots; i++)\n"
-       "  s->mass += mass[i];")
+       "  s->mass += mass[i];",
+       "double sum = 0.0;\nfor (size_t i = set->slots; i-- > 0;)\n  sum += mass[i];",
+       "double sum = 0.0;\nfor (size_t i = 0; i != set->slots; i++)\n  sum += mass[i];",
+       "double sum = 0.0;\nfor (const double *p = mass; p < mass + set->slots; p++)\n  sum += *p;",
+       "double sum = 0.0;\nsize_t i = 0;\nwhile (i < set->slots)\n  sum += mass[i++];",
+       "double sum = 0.0;\nconst size_t count = set->slots;\nfor (size_t i = 0; i < count; i++)\n"
+       "  sum += mass[i];",
+       "double sum = 0.0;\nfor (size_t i = 0, end = set->slots; i < end; i++)\n  sum += mass[i];")
 GOOD = ("size_t count = 0;\nfor (size_t i = 0; i < set->slots; i++)\n  count += id[i] >= 0;",
         "double *force;\nfor (size_t i = 0; i < set->slots; i++)\n  force[i] += mass[i] * g;",
         "for (size_t b = 0; b < set->blocks; b++) {\n  double own = 0.0;\n"
         "  for (size_t i = first[b]; i < first[b + 1]; i++)\n    own += mass[i];\n"
         "  row[b] = own;\n}",
         "double sum = 0.0;\nfor (size_t i = first; i < last; i++)\n  sum += mass[i];",
+        "double sum = 0.0;\nconst size_t count = set->slots / parts;\n"
+        "for (size_t i = 0; i < count; i++)\n  sum += mass[i];",
+        "double *force;\nfor (size_t i = set->slots; i-- > 0;)\n  force[i] += mass[i] * g;",
         BAD[0] + "\ngamut_sum(run, row, rows, 1, &sum);")
 
 
@@ -69,9 +82,14 @@ def sums(source, headers=""):
     for loop in LOOP.finditer(text):
         inside = repeated(text, loop.start())
         function = text[text.rfind("\n}", 0, loop.start()) + 1:loop.start()]
+        head = text[loop.start():closing(text, loop.end() - 1) + 1]
+        names = "|".join([BOUND, *(rf"\b{name}\b" for name in RENAMED.findall(function))])
+        if not re.search(names, head):
+            continue
+        counter = COUNTER.search(head).group(1)
         for added in ADDED.finditer(inside):
             whole, name, index = added.groups()
-            by_entry = re.search(rf"\[[^\]]*\b{loop.group(1)}\b", whole + index)
+            by_entry = re.search(rf"\[[^\]]*\b{counter}\b", whole + index)
             known = members if "." in whole or "->" in whole else function
             if is_real(name, inside) or by_entry or not is_real(name, known):
                 continue

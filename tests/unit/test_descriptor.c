@@ -132,13 +132,64 @@ static void test_layout(const struct descriptor *d)
   free(slots);
 }
 
+static void header_text(const struct descriptor *d, char *text, size_t size)
+{
+  FILE *file = tmpfile();
+  descriptor_header(d, file);
+  rewind(file);
+  text[fread(text, 1, size - 1, file)] = 0;
+  fclose(file);
+}
+
+#define MODE "parameters:\n  mode: {type: choice, choices: [fast, exact], default: fast, doc: d}\n"
+
+static void test_kernel_header(void)
+{
+  char words[8192], text[16384];
+  struct descriptor *d = read_sample(EOS MODE, words, sizeof words);
+  if (!tap_ok(d != NULL, "an eos is read")) {
+    printf("# %s\n", words);
+    return;
+  }
+  header_text(d, text, sizeof text);
+  tap_ok(strstr(text, "#include <gamut/kernel.h>\n") && strstr(text, "enum sample_mode {") &&
+             !strstr(text, "<gamut/plugin.h>") && !strstr(text, "gamut_choice("),
+         "the header of a law asks nothing of the core");
+  descriptor_free(d);
+}
+
+/* That of an effect does, but for its kernels. */
+static void test_effect_header(void)
+{
+  char words[8192], text[16384];
+  struct descriptor *d =
+      read_sample("plugin: effect/sample\nversion: \"1\"\nsummary: a sample\n"
+                  "outputs: [flow_stress_factor]\n" MODE
+                  "tasks: [{kernel: k, phase: a, scales: [flow_stress_factor]}]\n",
+                  words, sizeof words);
+  if (!tap_ok(d != NULL, "an effect is read")) {
+    printf("# %s\n", words);
+    return;
+  }
+  header_text(d, text, sizeof text);
+  tap_ok(strstr(text, "#ifdef GAMUT_KERNEL\n#include <gamut/kernel.h>\n#else\n"
+                      "#include <gamut/plugin.h>\n#endif\n") != NULL,
+         "its kernels see no more than kernels do");
+  tap_ok(strstr(text,
+                "#ifndef GAMUT_KERNEL\nstatic inline enum sample_mode\nsample_mode_of(const "
+                "struct gamut_values *values)\n{\n"
+                "  return (enum sample_mode)gamut_choice(values, \"mode\");\n}\n#endif\n") != NULL,
+         "the rest may ask for its choice");
+  descriptor_free(d);
+}
+
 static void test_header(const struct descriptor *d)
 {
   static const char *const lines[] = {
       "#ifndef SAMPLE_GAMUT_H\n",
       "#define SAMPLE_SCRATCH 24\n",
       "enum sample_mode {\n  SAMPLE_MODE_FAST,\n  SAMPLE_MODE_EXACT\n};\n",
-      "return (enum sample_mode)gamut_choice(values, \"mode\");\n",
+      "#include <gamut/kernel.h>\n",
       "#define SAMPLE_GONE GAMUT_MESSAGE(GAMUT_STOP, 1)\n",
       "  const double *A; ",
       "  const double *velocity_gradient[9]; ",
@@ -154,11 +205,7 @@ static void test_header(const struct descriptor *d)
       "  void (*fluid)(const struct sample *);",
   };
   char text[16384];
-  FILE *file = tmpfile();
-  descriptor_header(d, file);
-  rewind(file);
-  text[fread(text, 1, sizeof text - 1, file)] = 0;
-  fclose(file);
+  header_text(d, text, sizeof text);
   for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++)
     tap_ok(strstr(text, lines[i]) != NULL, "header holds: %.60s", lines[i]);
   tap_ok(strstr(text, d->digest) != NULL, "header holds the digest");
@@ -174,6 +221,8 @@ static void test_whole(void)
   }
   test_values(d);
   test_layout(d);
+  test_kernel_header();
+  test_effect_header();
   test_header(d);
   FILE *file = tmpfile();
   descriptor_show(d, file);

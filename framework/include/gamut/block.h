@@ -7,18 +7,23 @@
  * kernel cannot tell.
  *
  * Data that the plugin prepared of the values for its kernels is a pointer `data` in the block, see
- * `prepare` in <gamut/plugin.h>: one for all threads, constant.
+ * `prepare` in <gamut/kernel.h>: one for all threads, constant.
  *
  * Rules. A kernel keeps no state between calls, allocates nothing, prints nothing, writes every
- * output of every point, never writes an input, and calls nothing but <math.h>, <gamut/math.h> and
- * the laws that the core bound into its block. Different threads call it with different blocks at
- * once.
+ * output of every point, never writes an input, and calls nothing but <gamut/math.h>, sqrt, fabs,
+ * copysign and the laws that the core bound into its block (see <gamut/kernel.h>). Different
+ * threads call it with different blocks at once.
  */
 #ifndef GAMUT_BLOCK_H
 #define GAMUT_BLOCK_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+#define GAMUT_LANES 8 /* blocks and chunks are padded to a multiple of this many points */
+#ifndef GAMUT_CHUNK_MAX
+#define GAMUT_CHUNK_MAX 1024 /* the most points a chunk can hold */
+#endif
 
 /* Loops over the points of a block. The pragma is what lets the compiler vectorise: with a dozen
  * pointers its alias analysis gives up in silence. The body must not carry anything from one point

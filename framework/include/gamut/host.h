@@ -13,17 +13,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include <gamut/block.h>
 #include <gamut/status.h>
 
 struct gamut_run; /* one run of one scene */
 /* The checked values of one plugin's parameters, or of a measure's arguments. */
 struct gamut_values;
 struct gamut_body; /* a body of the scene */
-
-enum {
-  GAMUT_LANES = 8,        /* blocks and chunks are padded to a multiple of this many points */
-  GAMUT_CHUNK_MAX = 1024, /* the most points a chunk can hold */
-};
 
 /* The points of one body and material. Read-only for plugins; the core keeps it current. Points are
  * cut into blocks: block b holds slots first[b] to first[b+1]-1, a multiple of GAMUT_LANES. Slots

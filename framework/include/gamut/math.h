@@ -73,9 +73,9 @@ GAMUT_INLINE double gamut_log_sum(double k, double f, double rest)
   double even = z * (6.666666666666735130e-01 +
                      w * (2.857142874366239149e-01 +
                           w * (1.818357216161805012e-01 + w * 1.479819860511658591e-01)));
-  double half = 0.5 * f * f;
-  double tail = s * (half + (odd + even)) + (k * GAMUT_LN2_LOW + rest);
-  return k * GAMUT_LN2_HIGH - ((half - tail) - f);
+  double halved = 0.5 * f * f;
+  double tail = s * (halved + (odd + even)) + (k * GAMUT_LN2_LOW + rest);
+  return k * GAMUT_LN2_HIGH - ((halved - tail) - f);
 }
 
 GAMUT_INLINE double gamut_log(double x)
@@ -210,9 +210,9 @@ GAMUT_INLINE double gamut_pow(double x, double y)
   p = size == 0.0 ? (y > 0.0 ? 0.0 : HUGE_VAL) : p;
   p = size == HUGE_VAL ? (y > 0.0 ? HUGE_VAL : 0.0) : p;
   /* A negative base: NaN but for whole exponents, where odd ones give the sign. */
-  double exponent = fabs(y), half = 0.5 * exponent;
+  double exponent = fabs(y), halved = 0.5 * exponent;
   double whole = gamut_whole(exponent) == exponent ? 1.0 : 0.0;
-  double odd = whole > 0.0 && gamut_whole(half) != half ? 1.0 : 0.0;
+  double odd = whole > 0.0 && gamut_whole(halved) != halved ? 1.0 : 0.0;
   p = x < 0.0 && whole == 0.0 && size > 0.0 && size < HUGE_VAL ? (double)NAN : p;
   p = odd > 0.0 ? copysign(p, x) : p;
   p = x != x || y != y ? x + y : p;

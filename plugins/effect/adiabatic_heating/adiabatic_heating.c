@@ -1,6 +1,7 @@
+#define GAMUT_KERNEL
 #include "adiabatic_heating.gamut.h"
 
-static void heat(const struct adiabatic_heating *b)
+static void adiabatic_heating_heat(const struct adiabatic_heating *b)
 {
   GAMUT_EACH (i, b) {
     double capacity = b->reference_density[i] * b->specific_heat[i];
@@ -9,4 +10,4 @@ static void heat(const struct adiabatic_heating *b)
   }
 }
 
-GAMUT_EFFECT(adiabatic_heating, .heat = heat)
+GAMUT_EFFECT(adiabatic_heating, .heat = adiabatic_heating_heat)

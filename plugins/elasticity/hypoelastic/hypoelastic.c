@@ -1,6 +1,6 @@
 #include "hypoelastic.h"
 
-static void stress(const struct hypoelastic *b)
+static void hypoelastic_stress(const struct hypoelastic *b)
 {
   hypoelastic_volume(b);
   hypoelastic_strength(b);
@@ -10,4 +10,4 @@ static void stress(const struct hypoelastic *b)
   hypoelastic_pressure(b);
 }
 
-GAMUT_ELASTICITY(hypoelastic, .stress = stress, .start = hypoelastic_start)
+GAMUT_ELASTICITY(hypoelastic, .stress = hypoelastic_stress, .start = hypoelastic_start)

@@ -6,33 +6,35 @@
 #include "hypoelastic.gamut.h"
 
 /* Names of the scratch arrays. Those of the return are free again for the energy. */
-enum scratch {
-  TRIAL,                 /* 6: trial deviator in the midpoint frame, then the returned one */
-  TURN = TRIAL + 6,      /* 3: axis of half the step's rotation times tan(angle / 4) */
-  TRIAL_SIZE = TURN + 3, /* von Mises stress of the trial deviator */
-  STRAIN_SIZE,           /* equivalent deviatoric strain of the step */
-  WORK_BEGIN,            /* rotated begin deviator : strain */
-  WORK_TRIAL,            /* trial deviator : strain, then deviatoric work per reference volume */
-  VOLUME_STEP,           /* J1 - J0 */
-  COMPRESSION,           /* at the end */
-  INCREMENT,             /* of plastic strain */
-  FLOW,                  /* flow stress at the end of the step */
-  EXCESS,                /* trial size over the flow stress without flow */
-  LOWER,
-  UPPER,        /* bracket of the increment */
-  ACTIVE,       /* 1 while the point still iterates */
-  OUTSIDE,      /* 1 where Newton's step left the bracket */
-  ENERGY_KNOWN, /* energy without the work of the end pressure */
-  SHEAR,        /* shear modulus of the step, where the strength changes it */
-  SCRATCH_USED
+enum hypoelastic_scratch {
+  HYPOELASTIC_TRIAL, /* 6: trial deviator in the midpoint frame, then the returned one */
+  HYPOELASTIC_TURN =
+      HYPOELASTIC_TRIAL + 6, /* 3: axis of half the step's rotation times tan(angle / 4) */
+  HYPOELASTIC_TRIAL_SIZE = HYPOELASTIC_TURN + 3, /* von Mises stress of the trial deviator */
+  HYPOELASTIC_STRAIN_SIZE,                       /* equivalent deviatoric strain of the step */
+  HYPOELASTIC_WORK_BEGIN,                        /* rotated begin deviator : strain */
+  HYPOELASTIC_WORK_TRIAL,  /* trial deviator : strain, then deviatoric work per reference volume */
+  HYPOELASTIC_VOLUME_STEP, /* J1 - J0 */
+  HYPOELASTIC_COMPRESSION, /* at the end */
+  HYPOELASTIC_INCREMENT,   /* of plastic strain */
+  HYPOELASTIC_FLOW,        /* flow stress at the end of the step */
+  HYPOELASTIC_EXCESS,      /* trial size over the flow stress without flow */
+  HYPOELASTIC_LOWER,
+  HYPOELASTIC_UPPER,        /* bracket of the increment */
+  HYPOELASTIC_ACTIVE,       /* 1 while the point still iterates */
+  HYPOELASTIC_OUTSIDE,      /* 1 where Newton's step left the bracket */
+  HYPOELASTIC_ENERGY_KNOWN, /* energy without the work of the end pressure */
+  HYPOELASTIC_SHEAR,        /* shear modulus of the step, where the strength changes it */
+  HYPOELASTIC_SCRATCH_USED
 };
 
-_Static_assert(SCRATCH_USED <= HYPOELASTIC_SCRATCH, "scratch in hypoelastic.yaml is too small");
+static_assert(HYPOELASTIC_SCRATCH_USED <= HYPOELASTIC_SCRATCH,
+              "hypoelastic_scratch in hypoelastic.yaml is too small");
 
 /* The value of one of two numbers, where `mask` is 1 or 0: exact for finite numbers. Where the
  * other one is what stands in memory already, compilers turn `?:` into a conditional store and the
  * loop into a slow one. */
-GAMUT_INLINE double choose(double mask, double one, double other)
+GAMUT_INLINE double hypoelastic_choose(double mask, double one, double other)
 {
   return mask * one + (1.0 - mask) * other;
 }
@@ -41,7 +43,7 @@ GAMUT_INLINE double choose(double mask, double one, double other)
 GAMUT_INLINE const double *hypoelastic_shear(const struct hypoelastic *b)
 {
   const bool changed = b->strength && b->strength->shear_modulus_factor;
-  return changed ? b->scratch[SHEAR] : b->shear_modulus;
+  return changed ? b->scratch[HYPOELASTIC_SHEAR] : b->shear_modulus;
 }
 
 /* The volume at the end of the step; before all else. */

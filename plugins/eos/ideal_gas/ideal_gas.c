@@ -1,6 +1,6 @@
 #include "ideal_gas.gamut.h"
 
-static void pressure(const struct ideal_gas *b)
+static void ideal_gas_pressure(const struct ideal_gas *b)
 {
   GAMUT_EACH (i, b) {
     double slope = (b->gamma[i] - 1.0) * b->energy[i];
@@ -14,4 +14,4 @@ static void pressure(const struct ideal_gas *b)
   }
 }
 
-GAMUT_EOS(ideal_gas, .pressure = pressure)
+GAMUT_EOS(ideal_gas, .pressure = ideal_gas_pressure)

@@ -1,6 +1,6 @@
 #include "linear.gamut.h"
 
-static void pressure(const struct linear *b)
+static void linear_pressure(const struct linear *b)
 {
   GAMUT_EACH (i, b) {
     b->pressure[i] = b->bulk_modulus[i] * b->compression[i];
@@ -10,4 +10,4 @@ static void pressure(const struct linear *b)
   }
 }
 
-GAMUT_EOS(linear, .pressure = pressure)
+GAMUT_EOS(linear, .pressure = linear_pressure)

@@ -1,6 +1,6 @@
 #include "none.gamut.h"
 
-static void flow_stress(const struct none *b)
+static void none_flow_stress(const struct none *b)
 {
   GAMUT_EACH (i, b) {
     b->flow_stress[i] = 0.0;
@@ -8,4 +8,4 @@ static void flow_stress(const struct none *b)
   }
 }
 
-GAMUT_STRENGTH(none, .flow_stress = flow_stress)
+GAMUT_STRENGTH(none, .flow_stress = none_flow_stress)

@@ -1,7 +1,7 @@
 #include "voce.gamut.h"
 
 /* Where Q2 is 0 the second term is left out, with its exponential: the same numbers. */
-GAMUT_INLINE void law(const struct voce *b, size_t i, bool two_terms)
+GAMUT_INLINE void voce_law(const struct voce *b, size_t i, bool two_terms)
 {
   double strain = b->plastic_strain[i], rest1 = gamut_expm1(-b->b1[i] * strain);
   double rest2 = two_terms ? gamut_expm1(-b->b2[i] * strain) : 0.0;
@@ -16,20 +16,20 @@ GAMUT_INLINE void law(const struct voce *b, size_t i, bool two_terms)
   GAMUT_FLAG(b, i, stress != stress, VOCE_NOT_FINITE);
 }
 
-static void flow_stress(const struct voce *b)
+static void voce_flow_stress(const struct voce *b)
 {
   GAMUT_EACH (i, b)
-    law(b, i, true);
+    voce_law(b, i, true);
 }
 
-static void one_term(const struct voce *b)
+static void voce_one_term(const struct voce *b)
 {
   GAMUT_EACH (i, b)
-    law(b, i, false);
+    voce_law(b, i, false);
 }
 
 /* Arrays that the core does not want are null; each loop fills one that it does. */
-#define FILL(array, value)                                                                         \
+#define VOCE_FILL(array, value)                                                                    \
   do {                                                                                             \
     if (b->array)                                                                                  \
       GAMUT_EACH (i, b)                                                                            \
@@ -37,35 +37,35 @@ static void one_term(const struct voce *b)
   } while (0)
 
 /* The flow stress is linear in y0, Q1, Q2 and h: only b1 and b2 have second derivatives. */
-static void zero_derivatives(const struct voce *b)
+static void voce_zero_derivatives(const struct voce *b)
 {
-  FILL(flow_stress_by_y0_y0, 0.0);
-  FILL(flow_stress_by_y0_Q1, 0.0);
-  FILL(flow_stress_by_y0_b1, 0.0);
-  FILL(flow_stress_by_y0_Q2, 0.0);
-  FILL(flow_stress_by_y0_b2, 0.0);
-  FILL(flow_stress_by_y0_h, 0.0);
-  FILL(flow_stress_by_Q1_Q1, 0.0);
-  FILL(flow_stress_by_Q1_Q2, 0.0);
-  FILL(flow_stress_by_Q1_b2, 0.0);
-  FILL(flow_stress_by_Q1_h, 0.0);
-  FILL(flow_stress_by_b1_Q2, 0.0);
-  FILL(flow_stress_by_b1_b2, 0.0);
-  FILL(flow_stress_by_b1_h, 0.0);
-  FILL(flow_stress_by_Q2_Q2, 0.0);
-  FILL(flow_stress_by_Q2_h, 0.0);
-  FILL(flow_stress_by_b2_h, 0.0);
-  FILL(flow_stress_by_h_h, 0.0);
+  VOCE_FILL(flow_stress_by_y0_y0, 0.0);
+  VOCE_FILL(flow_stress_by_y0_Q1, 0.0);
+  VOCE_FILL(flow_stress_by_y0_b1, 0.0);
+  VOCE_FILL(flow_stress_by_y0_Q2, 0.0);
+  VOCE_FILL(flow_stress_by_y0_b2, 0.0);
+  VOCE_FILL(flow_stress_by_y0_h, 0.0);
+  VOCE_FILL(flow_stress_by_Q1_Q1, 0.0);
+  VOCE_FILL(flow_stress_by_Q1_Q2, 0.0);
+  VOCE_FILL(flow_stress_by_Q1_b2, 0.0);
+  VOCE_FILL(flow_stress_by_Q1_h, 0.0);
+  VOCE_FILL(flow_stress_by_b1_Q2, 0.0);
+  VOCE_FILL(flow_stress_by_b1_b2, 0.0);
+  VOCE_FILL(flow_stress_by_b1_h, 0.0);
+  VOCE_FILL(flow_stress_by_Q2_Q2, 0.0);
+  VOCE_FILL(flow_stress_by_Q2_h, 0.0);
+  VOCE_FILL(flow_stress_by_b2_h, 0.0);
+  VOCE_FILL(flow_stress_by_h_h, 0.0);
 }
 
 /* 1 - exp(-b strain) and strain exp(-b strain) of both terms, a number a point: exponentials are
  * taken once, whatever the core wants. */
-struct terms {
+struct voce_terms {
   double filled1[GAMUT_CHUNK_MAX], left1[GAMUT_CHUNK_MAX];
   double filled2[GAMUT_CHUNK_MAX], left2[GAMUT_CHUNK_MAX];
 };
 
-static void find_terms(const struct voce *b, struct terms *t)
+static void voce_find_terms(const struct voce *b, struct voce_terms *t)
 {
   GAMUT_EACH (i, b) {
     double strain = b->plastic_strain[i], x1 = -b->b1[i] * strain, x2 = -b->b2[i] * strain;
@@ -76,22 +76,23 @@ static void find_terms(const struct voce *b, struct terms *t)
   }
 }
 
-static void derivatives(const struct voce *b)
+static void voce_derivatives(const struct voce *b)
 {
   const double *strain = b->plastic_strain;
-  struct terms terms, *t = &terms;
-  find_terms(b, t);
-  FILL(flow_stress_by_y0, 1.0);
-  FILL(flow_stress_by_Q1, t->filled1[i]);
-  FILL(flow_stress_by_b1, b->Q1[i] * t->left1[i]);
-  FILL(flow_stress_by_Q2, t->filled2[i]);
-  FILL(flow_stress_by_b2, b->Q2[i] * t->left2[i]);
-  FILL(flow_stress_by_h, strain[i]);
-  FILL(flow_stress_by_Q1_b1, t->left1[i]);
-  FILL(flow_stress_by_b1_b1, -b->Q1[i] * strain[i] * t->left1[i]);
-  FILL(flow_stress_by_Q2_b2, t->left2[i]);
-  FILL(flow_stress_by_b2_b2, -b->Q2[i] * strain[i] * t->left2[i]);
-  zero_derivatives(b);
+  struct voce_terms voce_terms, *t = &voce_terms;
+  voce_find_terms(b, t);
+  VOCE_FILL(flow_stress_by_y0, 1.0);
+  VOCE_FILL(flow_stress_by_Q1, t->filled1[i]);
+  VOCE_FILL(flow_stress_by_b1, b->Q1[i] * t->left1[i]);
+  VOCE_FILL(flow_stress_by_Q2, t->filled2[i]);
+  VOCE_FILL(flow_stress_by_b2, b->Q2[i] * t->left2[i]);
+  VOCE_FILL(flow_stress_by_h, strain[i]);
+  VOCE_FILL(flow_stress_by_Q1_b1, t->left1[i]);
+  VOCE_FILL(flow_stress_by_b1_b1, -b->Q1[i] * strain[i] * t->left1[i]);
+  VOCE_FILL(flow_stress_by_Q2_b2, t->left2[i]);
+  VOCE_FILL(flow_stress_by_b2_b2, -b->Q2[i] * strain[i] * t->left2[i]);
+  voce_zero_derivatives(b);
 }
 
-GAMUT_STRENGTH(voce, .flow_stress = flow_stress, .one_term = one_term, .derivatives = derivatives)
+GAMUT_STRENGTH(voce, .flow_stress = voce_flow_stress, .derivatives = voce_derivatives,
+               .one_term = voce_one_term)

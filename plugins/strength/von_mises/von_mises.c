@@ -1,6 +1,6 @@
 #include "von_mises.gamut.h"
 
-static void flow_stress(const struct von_mises *b)
+static void von_mises_flow_stress(const struct von_mises *b)
 {
   GAMUT_EACH (i, b) {
     double stress = b->yield_stress[i] + b->hardening_modulus[i] * b->plastic_strain[i];
@@ -10,4 +10,4 @@ static void flow_stress(const struct von_mises *b)
   }
 }
 
-GAMUT_STRENGTH(von_mises, .flow_stress = flow_stress)
+GAMUT_STRENGTH(von_mises, .flow_stress = von_mises_flow_stress)

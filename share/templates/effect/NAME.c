@@ -2,12 +2,7 @@
 
 #include "@NAME@.gamut.h"
 
-static void drag(const struct @NAME@ *b)
-{
-  for (int k = 0; k < 3; k++)
-    GAMUT_EACH (i, b)
-      b->external_force[k][i] -= b->rate[i] * b->mass[i] * b->velocity[k][i];
-}
+void @NAME@_drag(const struct @NAME@ *); /* @NAME@_kernel.c */
 
 static bool decline(void *self, const struct gamut_values *values, char *why, size_t size)
 {
@@ -16,4 +11,4 @@ static bool decline(void *self, const struct gamut_values *values, char *why, si
   return gamut_real(values, "rate") == 0;
 }
 
-GAMUT_EFFECT(@NAME@, .decline = decline, .drag = drag)
+GAMUT_EFFECT(@NAME@, .decline = decline, .drag = @NAME@_drag)

@@ -1,10 +1,10 @@
 #include "@NAME@.gamut.h"
 
 /* Numbers of the components xx yy zz xy yz zx in a matrix stored row by row. */
-static const int place[6] = {0, 4, 8, 1, 5, 6};
+static const int @NAME@_place[6] = {0, 4, 8, 1, 5, 6};
 
 /* F at the end: (I + dt L) F. */
-static void move(const struct @NAME@ *b, size_t i, double *f)
+static void @NAME@_move(const struct @NAME@ *b, size_t i, double *f)
 {
   for (int r = 0; r < 3; r++)
     for (int c = 0; c < 3; c++) {
@@ -17,7 +17,7 @@ static void move(const struct @NAME@ *b, size_t i, double *f)
 }
 
 /* E of F, and the energy in it. */
-static double strain(const double *f, double lame, double shear, double *e)
+static double @NAME@_strain(const double *f, double lame, double shear, double *e)
 {
   double square = 0;
   for (int r = 0; r < 3; r++)
@@ -31,30 +31,31 @@ static double strain(const double *f, double lame, double shear, double *e)
   return 0.5 * lame * trace * trace + shear * square;
 }
 
-static double determinant(const double *f)
+static double @NAME@_determinant(const double *f)
 {
   return f[0] * (f[4] * f[8] - f[5] * f[7]) - f[1] * (f[3] * f[8] - f[5] * f[6]) +
          f[2] * (f[3] * f[7] - f[4] * f[6]);
 }
 
-static double energy_at_begin(const struct @NAME@ *b, size_t i, double lame)
+static double @NAME@_energy_at_begin(const struct @NAME@ *b, size_t i, double lame)
 {
   double f[9], e[9];
   for (int k = 0; k < 9; k++)
     f[k] = b->displacement_gradient_begin[k][i] + (k % 4 == 0);
-  return strain(f, lame, b->shear_modulus[i], e);
+  return @NAME@_strain(f, lame, b->shear_modulus[i], e);
 }
 
-static void stress(const struct @NAME@ *b)
+static void @NAME@_stress(const struct @NAME@ *b)
 {
   for (size_t i = 0; i < b->count; i++) {
     double f[9], e[9], g = b->shear_modulus[i], q = b->viscous_pressure[i];
     double lame = b->bulk_modulus[i] - 2.0 / 3.0 * g;
-    double before = energy_at_begin(b, i, lame);
-    move(b, i, f);
-    double j = determinant(f), after = strain(f, lame, g, e), trace = e[0] + e[4] + e[8];
+    double before = @NAME@_energy_at_begin(b, i, lame);
+    @NAME@_move(b, i, f);
+    double j = @NAME@_determinant(f), after = @NAME@_strain(f, lame, g, e),
+           trace = e[0] + e[4] + e[8];
     for (int k = 0; k < 6; k++) {
-      int r = place[k] / 3, c = place[k] % 3;
+      int r = @NAME@_place[k] / 3, c = @NAME@_place[k] % 3;
       double sum = 0;
       for (int m = 0; m < 9; m++) /* F S F' */
         sum += f[3 * r + m / 3] * ((m % 4 == 0 ? lame * trace : 0.0) + 2 * g * e[m]) *
@@ -68,4 +69,4 @@ static void stress(const struct @NAME@ *b)
   }
 }
 
-GAMUT_ELASTICITY(@NAME@, .stress = stress)
+GAMUT_ELASTICITY(@NAME@, .stress = @NAME@_stress)

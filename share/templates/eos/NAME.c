@@ -1,6 +1,6 @@
 #include "@NAME@.gamut.h"
 
-static void pressure(const struct @NAME@ *b)
+static void @NAME@_pressure(const struct @NAME@ *b)
 {
   GAMUT_EACH (i, b) {
     b->pressure[i] = b->bulk_modulus[i] * b->compression[i];
@@ -10,4 +10,4 @@ static void pressure(const struct @NAME@ *b)
   }
 }
 
-GAMUT_EOS(@NAME@, .pressure = pressure)
+GAMUT_EOS(@NAME@, .pressure = @NAME@_pressure)

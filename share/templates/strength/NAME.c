@@ -1,6 +1,6 @@
 #include "@NAME@.gamut.h"
 
-static void flow_stress(const struct @NAME@ *b)
+static void @NAME@_flow_stress(const struct @NAME@ *b)
 {
   GAMUT_EACH (i, b) {
     b->flow_stress[i] = b->yield_stress[i] + b->hardening_modulus[i] * b->plastic_strain[i];
@@ -8,4 +8,4 @@ static void flow_stress(const struct @NAME@ *b)
   }
 }
 
-GAMUT_STRENGTH(@NAME@, .flow_stress = flow_stress)
+GAMUT_STRENGTH(@NAME@, .flow_stress = @NAME@_flow_stress)

@@ -1,3 +1,4 @@
+#define GAMUT_KERNEL
 #include "burn.gamut.h"
 
 static void burn(const struct burn *b)

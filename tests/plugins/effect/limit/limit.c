@@ -1,3 +1,4 @@
+#define GAMUT_KERNEL
 #include "limit.gamut.h"
 
 static void limit(const struct limit *b)

@@ -1,3 +1,4 @@
+#define GAMUT_KERNEL
 #include "soften.gamut.h"
 
 static void soften(const struct soften *b)

@@ -1,6 +1,6 @@
 #include "jwl.gamut.h"
 
-static void pressure(const struct jwl *b)
+static void jwl_pressure(const struct jwl *b)
 {
   GAMUT_EACH (i, b) {
     double ratio = 1.0 + b->compression[i], V = 1.0 / ratio, e = b->energy[i];
@@ -22,4 +22,4 @@ static void pressure(const struct jwl *b)
   }
 }
 
-GAMUT_EOS(jwl, .pressure = pressure)
+GAMUT_EOS(jwl, .pressure = jwl_pressure)

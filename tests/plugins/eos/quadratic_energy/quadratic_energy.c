@@ -1,6 +1,6 @@
 #include "quadratic_energy.gamut.h"
 
-static void pressure(const struct quadratic_energy *b)
+static void quadratic_energy_pressure(const struct quadratic_energy *b)
 {
   GAMUT_EACH (i, b) {
     double e = b->energy[i], ratio = 1.0 + b->compression[i];
@@ -14,4 +14,4 @@ static void pressure(const struct quadratic_energy *b)
   }
 }
 
-GAMUT_EOS(quadratic_energy, .pressure = pressure)
+GAMUT_EOS(quadratic_energy, .pressure = quadratic_energy_pressure)

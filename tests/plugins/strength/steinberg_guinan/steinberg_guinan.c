@@ -1,6 +1,6 @@
 #include "steinberg_guinan.gamut.h"
 
-static void flow_stress(const struct steinberg_guinan *b)
+static void steinberg_guinan_flow_stress(const struct steinberg_guinan *b)
 {
   GAMUT_EACH (i, b) {
     double cube_root = gamut_pow(1.0 + b->compression[i], 1.0 / 3.0);
@@ -18,4 +18,4 @@ static void flow_stress(const struct steinberg_guinan *b)
   }
 }
 
-GAMUT_STRENGTH(steinberg_guinan, .flow_stress = flow_stress)
+GAMUT_STRENGTH(steinberg_guinan, .flow_stress = steinberg_guinan_flow_stress)
