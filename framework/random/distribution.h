@@ -3,26 +3,21 @@
 #define GAMUT_DISTRIBUTION_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
-enum distribution_kind {
-  DISTRIBUTION_NORMAL,
-  DISTRIBUTION_LOGNORMAL,
-  DISTRIBUTION_UNIFORM,
-  DISTRIBUTION_WEIBULL,
-  DISTRIBUTION_GAMMA,
-  DISTRIBUTION_BETA,
-  DISTRIBUTION_TRIANGULAR
-};
-#define DISTRIBUTION_NAMES                                                                         \
-  {                                                                                                \
-    "normal", "lognormal", "uniform", "weibull", "gamma", "beta", "triangular"                     \
-  }
+/* A kind of distribution; see distribution_types.h. */
+struct distribution_type;
+/* By the name in a scene; null: the one that is meant where none is named. Null if unknown. */
+const struct distribution_type *distribution_named(const char *name);
+/* The names of all; how many there are. */
+enum { DISTRIBUTIONS_MAX = 32 };
+size_t distribution_names(const char *name[DISTRIBUTIONS_MAX]);
 
 /* A random parameter as the scene states it, SI. `mean` and `deviation` are those of the
  * untruncated distribution; lower and upper the ends of a uniform, beta or triangular one (mode =
  * the mean's complement for triangular is derived), and of the truncation. */
 struct distribution {
-  enum distribution_kind kind;
+  const struct distribution_type *type;
   double mean, deviation;
   double lower, upper; /* -inf, inf where open */
   bool truncated;

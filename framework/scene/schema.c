@@ -338,14 +338,15 @@ static json_t *quantity_schema(const struct registry *registry)
 
 static json_t *definitions(const struct registry *registry)
 {
-  static const char *const kinds[] = DISTRIBUTION_NAMES;
+  const char *names[DISTRIBUTIONS_MAX];
+  const size_t count = distribution_names(names);
   json_t *pure = json_pack("{s:[s, s]}", "type", "number", "string");
   json_t *value = json_pack("{s:[s, s]}", "type", "number", "string");
   json_t *random =
       object(json_pack("{s:O, s:O, s:O, s:{s:o}, s:O, s:O, s:{s:[s, s]}, s:o}", "mean", value, "cv",
-                       value, "sd", value, "distribution", "enum", words(kinds, ARRAY_SIZE(kinds)),
-                       "lower", value, "upper", value, "truncate", "type", "boolean", "array",
-                       "field", reference(kind_name(GAMUT_KIND_RANDOM_FIELD))),
+                       value, "sd", value, "distribution", "enum", words(names, count), "lower",
+                       value, "upper", value, "truncate", "type", "boolean", "array", "field",
+                       reference(kind_name(GAMUT_KIND_RANDOM_FIELD))),
              true);
   json_decref(value);
   return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "shape", shape_schema(), "number", pure,

@@ -2,37 +2,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "random/distribution_types.h"
 #include "scene/scene_private.h"
 
-static const char *const kind_names[] = DISTRIBUTION_NAMES;
 static const char *const known_keys[] = {"mean",  "cv",    "sd",       "distribution",
                                          "lower", "upper", "truncate", "field"};
 
-static bool bounded(enum distribution_kind kind)
-{
-  return kind == DISTRIBUTION_UNIFORM || kind == DISTRIBUTION_BETA ||
-         kind == DISTRIBUTION_TRIANGULAR;
-}
-
-static bool kind_read(struct scene_reader *reader, const struct tree *node,
-                      enum distribution_kind *kind)
+static bool type_read(struct scene_reader *reader, const struct tree *node,
+                      const struct distribution_type **type)
 {
   char expected[WORDS_SIZE];
-  *kind = DISTRIBUTION_NORMAL;
-  if (!node)
-    return true;
-  const char *text = text_read(reader, node, "distribution");
-  if (!text)
+  const char *name[DISTRIBUTIONS_MAX];
+  const char *text = node ? text_read(reader, node, "distribution") : NULL;
+  if (node && !text)
     return false;
-  for (size_t i = 0; i < ARRAY_SIZE(kind_names); i++)
-    if (strcmp(kind_names[i], text) == 0) {
-      *kind = (enum distribution_kind)i;
-      return true;
-    }
-  error_at_value(
-      reader, node,
-      suggest(reader, text, kind_names, ARRAY_SIZE(kind_names), expected, sizeof expected),
-      "unknown distribution '%s'", text);
+  *type = distribution_named(text);
+  if (*type)
+    return true;
+  const size_t count = distribution_names(name);
+  error_at_value(reader, node, suggest(reader, text, name, count, expected, sizeof expected),
+                 "unknown distribution '%s'", text);
   return false;
 }
 
@@ -101,12 +90,12 @@ static bool spread_read(struct scene_reader *reader, const char *unit, const str
 static bool ends_read(struct scene_reader *reader, const char *unit, const struct tree *node,
                       struct distribution *d)
 {
-  bool due = bounded(d->kind);
+  bool due = d->type->bounded;
   for (int i = 0; i < 2 && !due; i++) {
     const struct tree *end = tree_get(node, i ? "upper" : "lower");
     if (end) {
       error_at_key(reader, end, "write truncate: [lower, upper]",
-                   "a %s distribution has no ends of its own", kind_names[d->kind]);
+                   "a %s distribution has no ends of its own", d->type->name);
       return false;
     }
   }
@@ -121,46 +110,21 @@ static bool ends_read(struct scene_reader *reader, const char *unit, const struc
   return false;
 }
 
-/* Whether mean, spread and ends fit together; uniform and triangular have no spread of their own.
- */
+/* Whether mean, spread and ends fit together; what is not stated follows. */
 static bool agrees(struct scene_reader *reader, const struct tree *node, struct distribution *d)
 {
   const struct tree *mean = tree_get(node, "mean");
-  double width = d->upper - d->lower;
-  switch (d->kind) {
-  case DISTRIBUTION_NORMAL:
-  case DISTRIBUTION_UNIFORM:
-    return true;
-  case DISTRIBUTION_LOGNORMAL:
-  case DISTRIBUTION_WEIBULL:
-  case DISTRIBUTION_GAMMA:
-    if (d->mean > 0)
-      return true;
+  const char *expected = NULL, *why = NULL;
+  if (d->type->positive && !(d->mean > 0)) {
     error_at_value(reader, mean, "greater than 0", "a %s distribution has a positive mean",
-                   kind_names[d->kind]);
-    return false;
-  case DISTRIBUTION_TRIANGULAR: {
-    double mode = 3 * d->mean - d->lower - d->upper;
-    if (mode >= d->lower && mode <= d->upper) {
-      d->deviation = sqrt((d->lower * d->lower + d->upper * d->upper + mode * mode -
-                           d->lower * d->upper - d->lower * mode - d->upper * mode) /
-                          18);
-      return true;
-    }
-    error_at_value(reader, mean, "in the middle third between the ends",
-                   "no triangular distribution has this mean");
+                   d->type->name);
     return false;
   }
-  case DISTRIBUTION_BETA:
-    if (d->mean > d->lower && d->mean < d->upper &&
-        d->deviation * d->deviation < (d->mean - d->lower) * (d->upper - d->mean) && width > 0)
-      return true;
-    error_at_value(reader, mean,
-                   "the mean between the ends, the spread smaller than their distance",
-                   "no beta distribution has this mean, spread and ends");
-    return false;
-  }
-  return false;
+  if (d->type->complete)
+    why = d->type->complete(d, &expected);
+  if (why)
+    error_at_value(reader, mean, expected, "%s", why);
+  return !why;
 }
 
 /* [lower, upper]; an open end is -inf or inf. */
@@ -188,10 +152,10 @@ static bool truncate_read(struct scene_reader *reader, const struct parameter *p
 {
   const struct range *physical = &parameter->physical;
   const struct tree *given = tree_get(node, "truncate");
-  if (bounded(d->kind)) {
+  if (d->type->bounded) {
     if (given)
       error_at_key(reader, given, "'lower' and 'upper' are its ends",
-                   "a %s distribution cannot be truncated", kind_names[d->kind]);
+                   "a %s distribution cannot be truncated", d->type->name);
     return !given;
   }
   if (!given || (given->kind == TREE_SCALAR && strcmp(given->text, "false") == 0))
@@ -238,26 +202,22 @@ static bool distribution_read(struct scene_reader *reader, const struct paramete
                               const struct tree *node, struct distribution *d)
 {
   const char *unit = parameter->unit;
-  if (!kind_read(reader, tree_get(node, "distribution"), &d->kind))
+  if (!type_read(reader, tree_get(node, "distribution"), &d->type))
     return false;
-  bool uniform = d->kind == DISTRIBUTION_UNIFORM;
-  bool spread = !uniform && d->kind != DISTRIBUTION_TRIANGULAR;
+  const bool centred = d->type->states != DISTRIBUTION_ENDS;
+  const bool spread = d->type->states == DISTRIBUTION_MEAN_AND_SPREAD;
   for (size_t i = 0; i < 3; i++) {
     const struct tree *extra = tree_get(node, known_keys[i]);
-    if (extra && (uniform || (i > 0 && !spread))) {
+    if (extra && (!centred || (i > 0 && !spread))) {
       error_at_key(reader, extra, "its ends say all of it", "a %s distribution takes no '%s'",
-                   kind_names[d->kind], extra->key);
+                   d->type->name, extra->key);
       return false;
     }
   }
   if (!ends_read(reader, unit, node, d) ||
-      (!uniform && !part(reader, node, "mean", unit, true, &d->mean)) ||
+      (centred && !part(reader, node, "mean", unit, true, &d->mean)) ||
       (spread && !spread_read(reader, unit, node, d)))
     return false;
-  if (uniform) {
-    d->mean = 0.5 * (d->lower + d->upper);
-    d->deviation = (d->upper - d->lower) / sqrt(12.);
-  }
   return agrees(reader, node, d) && truncate_read(reader, parameter, node, d);
 }
 
@@ -300,7 +260,7 @@ bool random_read(struct scene_reader *reader, const struct parameter *parameter,
   double mass = d.truncated ? 0 : mass_outside(&d, &parameter->physical);
   if (mass > 1e-6)
     warn_value(
-        reader, node, bounded(d.kind) ? "move its ends inside" : "'truncate: true' keeps it inside",
+        reader, node, d.type->bounded ? "move its ends inside" : "'truncate: true' keeps it inside",
         "%.3g of the distribution of '%s' lies outside its physical range", mass, parameter->name);
   value->random = scene_take(1, sizeof *value->random);
   *value->random = d;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "random/distribution_types.h"
 #include "registry/guard.h"
 #include "study/study_private.h"
 
@@ -54,12 +55,6 @@ done:
   return status;
 }
 
-static const char *law_name(const struct distribution *d)
-{
-  static const char *const name[] = DISTRIBUTION_NAMES;
-  return name[d->kind];
-}
-
 void study_explain(const struct study *study, const struct study_forecast *f, FILE *file)
 {
   fprintf(file, "\nstudy %s: %s%zu runs%s, %d side by side",
@@ -72,7 +67,7 @@ void study_explain(const struct study *study, const struct study_forecast *f, FI
     const struct random_parameter *random = &study->scene->random_parameter[i];
     const char *unit = random->parameter->unit ? random->parameter->unit : "1";
     fprintf(file, "    %s: %s, mean %.6g %s, standard deviation %.6g %s%s\n", random->path,
-            law_name(random->distribution), random->distribution->mean, unit,
+            random->distribution->type->name, random->distribution->mean, unit,
             random->distribution->deviation, unit,
             random->distribution->truncated ? ", before it is truncated" : "");
   }
@@ -82,7 +77,7 @@ static json_t *parameter_json(const struct random_parameter *random)
 {
   const struct distribution *d = random->distribution;
   return json_pack("{s:s, s:s, s:s, s:f, s:f, s:b}", "path", random->path, "distribution",
-                   law_name(d), "unit", random->parameter->unit ? random->parameter->unit : "1",
+                   d->type->name, "unit", random->parameter->unit ? random->parameter->unit : "1",
                    "mean", d->mean, "sd", d->deviation, "truncated", (int)d->truncated);
 }
 

@@ -1,23 +1,38 @@
 /* Distributions: quantiles and probabilities agree, mean and deviation are the stated ones. */
 #include <math.h>
+#include <string.h>
 
+#include "random/distribution_types.h"
 #include "tests/tap.h"
-#include "random/distribution.h"
+
+/* Each is among those that are tried above. */
+static void test_names(const struct distribution *d, size_t count)
+{
+  const char *name[DISTRIBUTIONS_MAX];
+  const size_t names = distribution_names(name);
+  for (size_t k = 0; k < names; k++) {
+    size_t tried = 0;
+    for (size_t i = 0; i < count; i++)
+      tried += strcmp(d[i].type->name, name[k]) == 0 && !d[i].truncated;
+    tap_ok(tried == 1, "%s is tried, %zu time", name[k], tried);
+  }
+  tap_ok(distribution_named(NULL) == distribution_named("normal") && !distribution_named("none"),
+         "the first is meant where none is named; one of no name is unknown");
+}
 
 static void test_distributions(void)
 {
-  static const struct distribution d[] = {
-      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, INFINITY, false, false},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, -INFINITY, INFINITY, false, false},
-      {DISTRIBUTION_UNIFORM, 3, 0.577350269189626, 2, 4, false, false},
-      {DISTRIBUTION_WEIBULL, 3, 0.5, -INFINITY, INFINITY, false, false},
-      {DISTRIBUTION_GAMMA, 3, 0.5, -INFINITY, INFINITY, false, false},
-      {DISTRIBUTION_BETA, 3, 0.5, 1, 6, false, false},
-      {DISTRIBUTION_TRIANGULAR, 3, 0.8164965809277260, 1, 5, false, false},
-      {DISTRIBUTION_NORMAL, 3, 0.5, 4, INFINITY, true, false},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, 2.5, 3.5, true, false},
+  const struct distribution d[] = {
+      {distribution_named("normal"), 3, 0.5, -INFINITY, INFINITY, false, false},
+      {distribution_named("lognormal"), 3, 0.5, -INFINITY, INFINITY, false, false},
+      {distribution_named("uniform"), 3, 0.577350269189626, 2, 4, false, false},
+      {distribution_named("weibull"), 3, 0.5, -INFINITY, INFINITY, false, false},
+      {distribution_named("gamma"), 3, 0.5, -INFINITY, INFINITY, false, false},
+      {distribution_named("beta"), 3, 0.5, 1, 6, false, false},
+      {distribution_named("triangular"), 3, 0.8164965809277260, 1, 5, false, false},
+      {distribution_named("normal"), 3, 0.5, 4, INFINITY, true, false},
+      {distribution_named("lognormal"), 3, 0.5, 2.5, 3.5, true, false},
   };
-  static const char *const names[] = DISTRIBUTION_NAMES;
   for (size_t i = 0; i < sizeof d / sizeof d[0]; i++) {
     enum { N = 20000 };
     double worst = 0, mean = 0, square = 0;
@@ -28,16 +43,17 @@ static void test_distributions(void)
       mean += x / N;
       square += x * x / N;
     }
-    snprintf(name, sizeof name, "%s%s: probability of the quantile", names[d[i].kind],
+    snprintf(name, sizeof name, "%s%s: probability of the quantile", d[i].type->name,
              d[i].truncated ? ", truncated" : "");
     tap_absolute(name, worst, 0, 1e-10);
     if (d[i].truncated)
       continue;
-    snprintf(name, sizeof name, "%s: mean by midpoints", names[d[i].kind]);
+    snprintf(name, sizeof name, "%s: mean by midpoints", d[i].type->name);
     tap_relative(name, mean, d[i].mean, 1e-5);
-    snprintf(name, sizeof name, "%s: deviation by midpoints", names[d[i].kind]);
+    snprintf(name, sizeof name, "%s: deviation by midpoints", d[i].type->name);
     tap_relative(name, sqrt(square - mean * mean), d[i].deviation, 1e-3);
   }
+  test_names(d, sizeof d / sizeof d[0]);
 }
 
 int main(void)

@@ -5,7 +5,7 @@
 
 #include "../tap.h"
 #include "random/correlation.h"
-#include "random/distribution.h"
+#include "random/distribution_types.h"
 #include "random/stream.h"
 #include "scene/scene.h"
 #include "study/study_private.h"
@@ -18,26 +18,25 @@ static double normal_below(double z)
 
 static void test_values(void)
 {
-  static const struct distribution d[] = {
-      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, INFINITY, false, false},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, -INFINITY, INFINITY, false, false},
-      {DISTRIBUTION_UNIFORM, 3, 0.577350269189626, 2, 4, false, false},
-      {DISTRIBUTION_WEIBULL, 3, 0.5, -INFINITY, INFINITY, false, false},
-      {DISTRIBUTION_GAMMA, 3, 0.5, -INFINITY, INFINITY, false, false},
-      {DISTRIBUTION_BETA, 3, 0.5, 1, 6, false, false},
-      {DISTRIBUTION_TRIANGULAR, 3, 0.8164965809277260, 1, 5, false, false},
-      {DISTRIBUTION_NORMAL, 3, 0.5, 4, INFINITY, true, false},
-      {DISTRIBUTION_NORMAL, 3, 0.5, -INFINITY, 3.2, true, false},
-      {DISTRIBUTION_LOGNORMAL, 3, 0.5, 2.5, 3.5, true, false},
+  const struct distribution d[] = {
+      {distribution_named("normal"), 3, 0.5, -INFINITY, INFINITY, false, false},
+      {distribution_named("lognormal"), 3, 0.5, -INFINITY, INFINITY, false, false},
+      {distribution_named("uniform"), 3, 0.577350269189626, 2, 4, false, false},
+      {distribution_named("weibull"), 3, 0.5, -INFINITY, INFINITY, false, false},
+      {distribution_named("gamma"), 3, 0.5, -INFINITY, INFINITY, false, false},
+      {distribution_named("beta"), 3, 0.5, 1, 6, false, false},
+      {distribution_named("triangular"), 3, 0.8164965809277260, 1, 5, false, false},
+      {distribution_named("normal"), 3, 0.5, 4, INFINITY, true, false},
+      {distribution_named("normal"), 3, 0.5, -INFINITY, 3.2, true, false},
+      {distribution_named("lognormal"), 3, 0.5, 2.5, 3.5, true, false},
   };
-  static const char *const names[] = DISTRIBUTION_NAMES;
   for (size_t i = 0; i < sizeof d / sizeof d[0]; i++) {
     double worst = 0;
     char name[96];
     for (double z = -3; z <= 3; z += 0.125)
       worst = fmax(worst, fabs(distribution_below(&d[i], distribution_of_normal(&d[i], z)) -
                                normal_below(z)));
-    snprintf(name, sizeof name, "%s%s: probability of a normal variable's value", names[d[i].kind],
+    snprintf(name, sizeof name, "%s%s: probability of a normal variable's value", d[i].type->name,
              d[i].truncated ? ", truncated" : "");
     tap_absolute(name, worst, 0, 1e-12);
     bool finite = true, rising = true;
@@ -46,7 +45,7 @@ static void test_values(void)
       finite = finite && isfinite(low);
       rising = rising && low <= high;
     }
-    tap_ok(finite && rising, "%s: finite and rising to twelve deviations", names[d[i].kind]);
+    tap_ok(finite && rising, "%s: finite and rising to twelve deviations", d[i].type->name);
   }
 }
 
@@ -78,8 +77,8 @@ static void test_matrix(void)
 static void test_draws(void)
 {
   enum { N = 20000 };
-  static const struct distribution normal = {DISTRIBUTION_NORMAL, 10,       2,
-                                             -INFINITY,           INFINITY, false, false};
+  const struct distribution normal = {
+      distribution_named("normal"), 10, 2, -INFINITY, INFINITY, false, false};
   static const double matrix[9] = {1, 0.5, 0.2, 0.5, 1, -0.3, 0.2, -0.3, 1};
   struct random_parameter random[3] = {
       {.distribution = &normal}, {.distribution = &normal}, {.distribution = &normal}};
