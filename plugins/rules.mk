@@ -28,7 +28,7 @@ openmp_flags = $(if $(filter solver/%,$(1)),$(OPENMP_CFLAGS),$(OPENMP_SIMD_FLAGS
 # --- gamut-header --------------------------------------------------------------------------------
 header_rooms = base unit tree expression descriptor
 header_objects = $(patsubst %.c,%.lo,$(filter \
-  $(foreach room,$(header_rooms),framework/$(room)/%.c) framework/field/catalogue.c,\
+  $(foreach room,$(header_rooms),framework/$(room)/%.c) framework/catalogue/catalogue.c,\
   $(libgamut_sources)))
 gamut-header$(EXEEXT): $(header_objects)
 

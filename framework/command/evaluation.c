@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "conformance/difference.h"
-#include "field/catalogue.h"
+#include "bench/difference.h"
+#include "catalogue/catalogue.h"
 
 /* What every law of a kind may be asked at, whether it reads it or not. */
 static const char *const standard_input[][3] = {

@@ -4,8 +4,8 @@
 
 #include <stdio.h>
 
+#include "bench/specimen.h"
 #include "command/options.h"
-#include "conformance/specimen.h"
 
 /* An input of the kernel: one value, or a range of `count` values. */
 struct eval_input {

@@ -4,9 +4,9 @@
 
 #include <stdint.h>
 
+#include "bench/difference.h"
+#include "bench/specimen.h"
 #include "conformance/check.h"
-#include "conformance/difference.h"
-#include "conformance/specimen.h"
 
 /* One plugin under test. */
 struct proof {

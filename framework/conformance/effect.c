@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 
 /* Fills what the task shares with others, and calls it. */
 static void call_from(struct suite *suite, const struct work *work, const char *const *name,

@@ -20,9 +20,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "catalogue/catalogue.h"
 #include "conformance/laws.h"
 #include "conformance/scene_run.h"
-#include "field/catalogue.h"
 
 struct answer {
   struct proof *proof;

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "catalogue/catalogue.h"
 #include "descriptor/descriptor_private.h"
-#include "field/catalogue.h"
 
 /* Writes a name as part of a constant's. */
 static void put_upper(FILE *file, const char *name)

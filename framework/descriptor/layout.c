@@ -5,8 +5,8 @@
 
 #include "base/hash.h"
 #include "base/memory.h"
+#include "catalogue/catalogue.h"
 #include "descriptor/descriptor_private.h"
-#include "field/catalogue.h"
 
 /* First pass: slots is null, slots and characters are counted. Second pass: both are written into
  * one allocation, so that the caller frees one pointer. */

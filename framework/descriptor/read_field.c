@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "catalogue/catalogue.h"
 #include "descriptor/descriptor_private.h"
-#include "field/catalogue.h"
 
 /* What an optional input reads where nobody gives it a value. */
 static void read_absent(struct reader *reader, const struct tree *own, struct field_use *use)

@@ -1,8 +1,8 @@
 /* What a kernel can say (messages) and the kernels of an effect (tasks). */
 #include <string.h>
 
+#include "catalogue/catalogue.h"
 #include "descriptor/descriptor_private.h"
-#include "field/catalogue.h"
 
 static bool read_severity(struct reader *reader, const struct tree *node,
                           enum gamut_severity *severity)

@@ -2,8 +2,8 @@
  * adds to bodies and materials. */
 #include <string.h>
 
+#include "catalogue/catalogue.h"
 #include "descriptor/descriptor_private.h"
-#include "field/catalogue.h"
 
 /* Names that a measure's formula may use: components of the fields of the catalogue and of this
  * plugin. */

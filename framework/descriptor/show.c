@@ -1,8 +1,8 @@
 /* `gamut show`: a plugin's declaration for people. */
 #include <string.h>
 
+#include "catalogue/catalogue.h"
 #include "descriptor/descriptor_private.h"
-#include "field/catalogue.h"
 
 /* Text of several lines, each indented; blank lines at the end are left out. */
 static void put_lines(FILE *file, const char *text, const char *indent)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 
 struct fields {
   struct field **field; /* one allocation each: handles to them stay good */

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/array.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "material/material_private.h"
 #include "registry/guard.h"
 

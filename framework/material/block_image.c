@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 
 struct image *image_new(const struct kernel *kernel, struct arena *arena, size_t rows,
                         const char *label)

@@ -5,7 +5,7 @@
  * exact. */
 #include <string.h>
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "material/material_private.h"
 
 static struct field *declare(struct fields *fields, const char *name, struct trace *trace)

@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "base/array.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "material/block_image.h"
 
 struct effect_task {

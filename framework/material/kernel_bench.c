@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/array.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "material/law.h"
 #include "registry/guard.h"
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 
 enum { SAMPLES_BY_DEFAULT = 500 };
 

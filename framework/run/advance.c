@@ -3,7 +3,7 @@
 #include <sys/resource.h>
 
 #include "base/clock.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "registry/guard.h"
 #include "run/run_private.h"
 

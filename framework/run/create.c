@@ -5,7 +5,7 @@
 #include <omp.h>
 #endif
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "registry/guard.h"
 #include "run/host.h"
 

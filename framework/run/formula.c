@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "run/run_private.h"
 
 static const char density_name[] = "reference_density";

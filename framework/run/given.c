@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/array.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "run/run_private.h"
 
 static bool puts_out(const struct gamut_run *run, const char *name)

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "registry/guard.h"
 #include "run/host.h"
 

@@ -3,7 +3,7 @@
  * same body: then the field of each such effect is called EFFECT.STATE. */
 #include <string.h>
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "scene/scene_private.h"
 
 static bool keeps(const struct descriptor *descriptor, const char *state)

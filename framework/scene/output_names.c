@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "scene/scene_private.h"
 
 struct search {

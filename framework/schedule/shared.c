@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "base/memory.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "schedule/schedule_private.h"
 
 static bool scales_or_lowers(enum gamut_access access)

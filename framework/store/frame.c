@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/exclusive.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "store/checksum.h"
 #include "store/hdf5.h"
 #include "store/store_private.h"

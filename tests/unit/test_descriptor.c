@@ -4,8 +4,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "catalogue/catalogue.h"
 #include "descriptor/descriptor.h"
-#include "field/catalogue.h"
 #include "tests/tap.h"
 
 static struct units *units;

@@ -1,5 +1,5 @@
 /* Derivatives by differences: smooth functions, kinks, ends of a domain. */
-#include "conformance/difference.h"
+#include "bench/difference.h"
 #include "tests/tap.h"
 
 static double smooth(void *self, double x, double y)

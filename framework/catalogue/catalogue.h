@@ -1,7 +1,7 @@
 /* The fields that gamut knows by name. Plugins refer to these in `inputs` and `outputs`; state
  * variables that a descriptor declares join them. */
-#ifndef GAMUT_FIELD_CATALOGUE_H
-#define GAMUT_FIELD_CATALOGUE_H
+#ifndef GAMUT_CATALOGUE_H
+#define GAMUT_CATALOGUE_H
 
 #include <stddef.h>
 

@@ -1,4 +1,4 @@
-#include "conformance/specimen.h"
+#include "bench/specimen.h"
 
 #include <limits.h>
 #include <stdio.h>
@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 
 void settings_free(struct settings *settings)
 {

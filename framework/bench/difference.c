@@ -1,4 +1,4 @@
-#include "conformance/difference.h"
+#include "bench/difference.h"
 
 #include <float.h>
 #include <math.h>

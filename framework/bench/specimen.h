@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "conformance/lone_run.h"
+#include "bench/lone_run.h"
 #include "material/material.h"
 
 /* A parameter's value as it would stand in a scene, with its unit. */

@@ -1,4 +1,4 @@
-#include "field/catalogue.h"
+#include "catalogue/catalogue.h"
 #include "base/array.h"
 
 #include <assert.h>
