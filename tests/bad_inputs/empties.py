@@ -7,6 +7,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import tap  # noqa: E402
+from tap import report  # noqa: E402
+
 try:
     import yaml
 except ImportError:
@@ -48,21 +52,10 @@ uncertainty: {estimator: {model: monte_carlo, runs: 8}, seed: 3, failures: 0.1,
               correlation: [[materials.steel.density, materials.steel.strength.A, 0.4]]}
 """
 PLACE = re.compile(r"^scene\.yaml:\d+:\d+: error: ", re.MULTILINE)
-count = failures = 0
 
 
 yaml.SafeDumper.add_representer(
     type(None), lambda dumper, _: dumper.represent_scalar("tag:yaml.org,2002:null", ""))
-
-
-def report(passed, name, said=""):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for line in said.splitlines()[:12] if not passed else ():
-        print("#   " + line)
-    sys.stdout.flush()
 
 
 def nodes(tree, path=()):
@@ -108,8 +101,7 @@ def main():
                      "gamut: 1\nsolver: {}\n", "gamut: 1\ninclude: []\n", "{}\n", "[]\n"):
             code, said = check(folder, text)
             report(code == 3 and PLACE.search(said), f"{text.strip()!r}: refused", said)
-    print(f"1..{count}")
-    sys.exit(failures > 0)
+    tap.done()
 
 
 main()

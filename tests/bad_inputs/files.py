@@ -6,6 +6,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import tap  # noqa: E402
+from tap import report  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 GAMUT = os.environ.get("GAMUT", os.path.join(HERE, "../../build/gamut"))
 GOOD = open(os.path.join(HERE, "good.yaml"), encoding="utf-8").read()
@@ -16,17 +20,6 @@ bodies: {b: {material: m, shape: {points: {file: odd, spacing: 1 mm}}}}
 """
 KINDS = {"pipe": "named pipe", "device": "device", "folder": "folder", "socket": "socket"}
 LIMIT = 5.0  # s, of waiting: a pipe would be waited for without end
-count = failures = 0
-
-
-def report(passed, name, said=""):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for line in said.splitlines()[:12] if not passed else ():
-        print("#   " + line)
-    sys.stdout.flush()
 
 
 def gamut(folder, *arguments):
@@ -121,8 +114,7 @@ def main():
         odd_files(folder)
         odd_plugins(folder)
         includes(folder)
-    print(f"1..{count}")
-    sys.exit(failures > 0)
+    tap.done()
 
 
 main()

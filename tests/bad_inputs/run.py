@@ -9,23 +9,14 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import tap  # noqa: E402
+from tap import report  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 GAMUT = os.environ.get("GAMUT", os.path.join(HERE, "../../build/gamut"))
 GOOD = "good.yaml"
 MILLION = 1000000
-count = 0
-failures = 0
-
-
-def report(passed, name, notes=()):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for note in notes if not passed else ():
-        for line in str(note).splitlines():
-            print("#   " + line)
-    sys.stdout.flush()
 
 
 def gamut(arguments, folder):
@@ -172,9 +163,8 @@ def main():
         shutil.rmtree(scratch)
     overrides()
     outputs()
-    print(f"1..{count}")
-    return failures > 0
+    tap.done()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

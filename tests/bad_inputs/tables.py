@@ -4,6 +4,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import tap  # noqa: E402
+from tap import report  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 GAMUT = os.environ.get("GAMUT", os.path.join(HERE, "../../build/gamut"))
 POINTS = """gamut: 1
@@ -12,16 +16,6 @@ materials: {m: {density: 8000 kg/m3, eos: {model: linear, bulk_modulus: 100 GPa}
 bodies: {b: {material: m, shape: {points: {file: p.csv%s}}}}
 """
 WIDE = ",".join(f"c{k}" for k in range(100))
-count = failures = 0
-
-
-def report(passed, name, said=""):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for line in said.splitlines()[:12] if not passed else ():
-        print("#   " + line)
 
 
 def read(folder, text, spacing=True):
@@ -96,8 +90,7 @@ def main():
         code, said = read(folder, "x,y,volume\n0.001,0,1e-6\n0.002,0,0\n", False)
         report(code == 3 and "p.csv:3:1: error: point 2 has volume = 0" in said,
                "a point without volume: refused at 3:1", said)
-    print(f"1..{count}")
-    sys.exit(failures > 0)
+    tap.done()
 
 
 main()

@@ -3,6 +3,10 @@ import os
 import subprocess
 import sys
 
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import tap  # noqa: E402
+from tap import report  # noqa: E402
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 GAMUT = os.environ.get("GAMUT", os.path.join(HERE, "../../build/gamut"))
 BAR = "bodies.bar."
@@ -56,17 +60,6 @@ STUMBLES = (
     (LARGEST + "field: pressure, reduce: {time_of: 1 GPa}}", 0, ""),
     (LARGEST + "field: total_pressure, reduce: {time_of: 1e9}}", 3, "a unit like Pa is due"),
 )
-count = failures = 0
-
-
-def report(passed, name, said=""):
-    global count, failures
-    count += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {count} - {name}")
-    for line in said.splitlines()[:12] if not passed else ():
-        print("#   " + line)
-    sys.stdout.flush()
 
 
 def main():
@@ -77,8 +70,7 @@ def main():
         blamed = expected == 0 or f"--set {option}: error: " in said
         report(done.returncode == expected and words in said and blamed,
                f"--set '{option}': {words or 'fine'}", f"exit {done.returncode}\n{said}")
-    print(f"1..{count}")
-    sys.exit(failures > 0)
+    tap.done()
 
 
 main()

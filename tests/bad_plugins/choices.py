@@ -7,18 +7,15 @@ import subprocess
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 import kernels  # noqa: E402
+from tap import done, report  # noqa: E402
 
 BUILD = os.environ.get("builddir", os.path.join(kernels.ROOT, "build"))
-done = []
 
 
-def check(name, good, told=""):
-    done.append(good)
-    print(f"{'ok' if good else 'not ok'} {len(done)} - {name}")
-    for line in told.splitlines() if not good else ():
-        print(f"# {line}")
+def check(name, good, told):
+    report(good, name, told)
 
 
 def edited(folder, kind, name, changes):
@@ -167,5 +164,4 @@ def sources():
 
 descriptors()
 sources()
-print(f"1..{len(done)}")
-sys.exit(0 if all(done) else 1)
+done()

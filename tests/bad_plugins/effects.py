@@ -5,9 +5,9 @@ import shutil
 import sys
 import tempfile
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 import kernels  # noqa: E402
-from tap import finish, report  # noqa: E402
+from tap import done, report  # noqa: E402
 
 ROOT = kernels.ROOT
 YAML = """plugin: effect/{name}
@@ -76,8 +76,8 @@ def main():
     with tempfile.TemporaryDirectory() as root:
         shipped(root)
         written(root)
-    return finish()
+    done()
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

@@ -2,9 +2,11 @@
 variants, effects that are off, quantities at a place in space."""
 import os
 import subprocess
+import sys
 import tempfile
 
-from tap import GAMUT, ROOT, done, gamut, report
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from tap import GAMUT, ROOT, done, gamut, report  # noqa: E402
 
 SCENE = """gamut: 1
 solver: {model: material_point_method, geometry: 1d, cell: 1 mm, step: 100 ns, end: 1 us}

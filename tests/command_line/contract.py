@@ -3,10 +3,12 @@ import math
 import os
 import signal
 import subprocess
+import sys
 import tempfile
 import time
 
-from tap import GAMUT, ROOT, done, figure, gamut, report
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from tap import GAMUT, ROOT, done, figure, gamut, report  # noqa: E402
 
 COMMANDS = ["run", "check", "explain", "eval", "list", "show", "verify", "new", "header", "schema",
             "plot"]

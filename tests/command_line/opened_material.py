@@ -1,9 +1,11 @@
 """An effect that opens material is warned of where the eos of that material stops a run; once a
 material, at check, explain and run alike, and not in the exit code."""
 import os
+import sys
 import tempfile
 
-from tap import gamut, done, report
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from tap import gamut, done, report  # noqa: E402
 
 PLATE = """gamut: 1
 solver: {{model: material_point_method, geometry: 1d, cell: 0.2 mm, end: 0.2 us}}

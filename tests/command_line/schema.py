@@ -5,7 +5,8 @@ import json
 import os
 import sys
 
-import tap
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import tap  # noqa: E402
 
 try:
     import yaml

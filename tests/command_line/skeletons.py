@@ -1,9 +1,11 @@
 """gamut new: the skeleton of every kind builds out of tree without a warning, and passes verify."""
 import os
 import subprocess
+import sys
 import tempfile
 
-from tap import GAMUT, done, gamut, report
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from tap import GAMUT, done, gamut, report  # noqa: E402
 
 KINDS = ["eos", "strength", "elasticity", "effect", "random_field", "estimator", "solver"]
 SCENE = """gamut: 1

@@ -2,9 +2,11 @@
 cards of the tree are free of such warnings; every parameter with a unit says what it may be."""
 import glob
 import os
+import sys
 import tempfile
 
-from tap import ROOT, done, gamut, report
+sys.path.insert(1, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from tap import ROOT, done, gamut, report  # noqa: E402
 
 SCENE = """gamut: 1
 solver: {model: material_point_method, geometry: axisymmetric, cell: 2 mm, end: 1 us}

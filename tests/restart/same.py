@@ -12,7 +12,6 @@ import numpy  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 INPUTS = os.path.join(HERE, "../../inputs")
-sys.path.insert(0, os.path.join(HERE, "../command_line"))
 from tap import GAMUT, done, gamut, report  # noqa: E402,F401
 
 # Waiting threads sleep: two of them on a busy machine are slow otherwise.

@@ -5,7 +5,7 @@ import os
 import sys
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "../command_line"))
+sys.path.insert(1, os.path.join(HERE, ".."))
 
 STRENGTH = "materials.metal.strength."
 DRIVER = """gamut: 1

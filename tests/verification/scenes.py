@@ -10,6 +10,7 @@ import tempfile
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(1, os.path.join(HERE, ".."))
 import needs  # noqa: E402
+from tap import done, note, report  # noqa: E402,F401
 
 needs.modules("h5py", "numpy")
 TREE = os.path.abspath(os.environ.get("srcdir", os.path.join(HERE, "../..")))
@@ -21,27 +22,7 @@ atexit.register(shutil.rmtree, SCRATCH, ignore_errors=True)
 # Threads that wait leave the core to others: tests run side by side.
 PATIENT = {**os.environ, "OMP_WAIT_POLICY": "passive"}
 
-checks = 0
-failures = 0
 runs = 0
-
-
-def report(passed, name, notes=()):
-    """One line of TAP; notes are shown when it failed."""
-    global checks, failures
-    checks += 1
-    failures += not passed
-    print(("ok" if passed else "not ok") + f" {checks} - {name}")
-    for note in notes if not passed else ():
-        for line in str(note).splitlines():
-            print("#   " + line)
-    sys.stdout.flush()
-    return passed
-
-
-def note(text):
-    print("# " + text)
-    sys.stdout.flush()
 
 
 def within(name, value, target, relative, unit="", scale=1.0):
@@ -54,11 +35,6 @@ def within(name, value, target, relative, unit="", scale=1.0):
 
 def below(name, value, limit, form=".3g"):
     return report(abs(value) <= limit, f"{name}: {value:{form}} (allowed {limit:g})")
-
-
-def done():
-    print(f"1..{checks}")
-    sys.exit(1 if failures else 0)
 
 
 class Failed(Exception):
