@@ -2,6 +2,7 @@
 
 import os
 import re
+import sys
 
 import tap
 
@@ -68,6 +69,12 @@ for room in rooms:
               [f for path in own for f in private_findings(path, room)])
     tap.check(f"{room} names headers from framework/",
               [f for path in own for f in relative_findings(path)])
+sys.path.insert(0, os.path.join(tap.ROOT, "docs"))
+import make_house  # noqa: E402
+
+tap.check("the picture of the rooms is that of the includes",
+          [] if make_house.picture() == tap.read("docs/pictures/house.svg") else
+          ["make it anew: python3 docs/make_house.py > docs/pictures/house.svg"])
 tap.check("public headers use only public headers",
           [f for path in sources if path.startswith("framework/include/")
            for f in public_findings(path)])
