@@ -195,7 +195,11 @@ bool ends_run_only(gamut_status);
  * to stop; else what ends the study. */
 gamut_status work_run(struct study *, struct worker *, struct outcome *);
 
-/* log.c: what has been run, line by line. */
+/* log.c: what has been run, line by line. log_read.c reads it. */
+#define LOG_VERSION "3 "
+enum { LOG_SUM_LENGTH = 10 }; /* " ~" and eight digits, behind each line */
+uint32_t log_sum(const char *line, size_t size);
+gamut_status log_read(struct study *, const char *path, FILE *);
 void log_digest(struct study *); /* after plugins have been opened */
 /* Reads and goes on with a log that is there, where the options say so; `there`: there is
  * one. */
