@@ -54,6 +54,8 @@
 #define FIELD_CATALOGUE_SHARED(Y)                                                                  \
   Y(flow_stress_factor, GAMUT_SCALE, "1",                                                          \
     "what is left of the flow stress: the core multiplies the law's results by it")                \
+  Y(transfer_heat, GAMUT_ADD, "J/m3",                                                              \
+    "heat that the point is given in the step, per reference volume; the solver takes it up")      \
   Y(opening_tension, GAMUT_LEAST, "Pa", "tension at which material opens; infinite: it does not")  \
   Y(closing_pressure, GAMUT_LEAST, "Pa", "pressure at which open material closes")
 

@@ -34,7 +34,7 @@ const char *kind_operation(enum gamut_kind kind, size_t index)
       [GAMUT_KIND_RANDOM_FIELD] = {"create", "destroy", "sample", "below"},
       [GAMUT_KIND_ESTIMATOR] = {"create", "destroy", "ask", "tell", "report", "save", "restore"},
       [GAMUT_KIND_SOLVER] = {"create", "destroy", "start", "next", "after", "plane", "measure",
-                             "describe", "save", "restore", "removal"},
+                             "describe", "save", "restore", "removal", "grid_pass"},
   };
   return index < ARRAY_SIZE(operation[kind]) ? operation[kind][index] : NULL;
 }

@@ -220,6 +220,8 @@ gamut_status run_add_task(struct gamut_run *run, const char *owner, const struct
   if (!task->material) {
     TRY(schedule_add(run->schedule, owner, place_of_owner(run), task, run->fields, only_set, on_set,
                      run->trace));
+    if (task->offer_count)
+      schedule_offer(run->schedule, task->offers, task->offer_count);
     schedule_plugin(run->schedule, adding(run));
   }
   for (size_t s = 0; task->material && s < run->scene->bodies; s++)

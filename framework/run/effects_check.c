@@ -103,6 +103,45 @@ done:
   return status;
 }
 
+static bool uses_as(const struct task *task, const char *field, bool (*test)(enum gamut_access))
+{
+  for (size_t u = 0; u < task->uses; u++)
+    if (test(task->use[u].access) && strcmp(task->use[u].field->name, field) == 0)
+      return true;
+  return false;
+}
+
+/* Heat that nobody takes up, or that finds no energy to go into, would be lost without a word. */
+static gamut_status check_heat(const struct gamut_run *run, const struct running_effect *effect,
+                               const struct task *task)
+{
+  const struct instance *asked = &effect->effect->instance;
+  const struct descriptor *solver = run->scene->solver.descriptor;
+  char path[256] = "";
+  const struct place *place = asked->node ? &asked->node->place : NULL;
+  if (asked->node)
+    tree_path(asked->node, path, sizeof path);
+  if (!uses_as(task, "transfer_heat", access_writes) || strcmp(task->owner, effect->label) != 0)
+    return GAMUT_OK;
+  if (!descriptor_provides(solver, "heat"))
+    return trace_fail_at(run->trace, GAMUT_SCENE, place, path, "a solver that provides 'heat'",
+                         "effect '%s' (%s) gives points heat, which %s does not take up",
+                         asked->name, asked->descriptor->id, solver->id);
+  for (size_t b = 0; b < run->scene->bodies; b++) {
+    bool kept = !effect->effect->on_body[b];
+    for (size_t i = 0; !kept && i < schedule_tasks(run->schedule); i++) {
+      const struct task *other = schedule_task(run->schedule, i);
+      kept = other->only_set == b && other->live && uses_as(other, "energy", access_writes);
+    }
+    if (!kept)
+      return trace_fail_at(run->trace, GAMUT_SCENE, place, path, "`bodies:` without this one",
+                           "effect '%s' (%s) gives points of body '%s' heat, but their material "
+                           "keeps no energy",
+                           asked->name, asked->descriptor->id, run->scene->body[b].name);
+  }
+  return GAMUT_OK;
+}
+
 gamut_status effects_check(struct gamut_run *run)
 {
   gamut_status status = GAMUT_OK;
@@ -117,6 +156,7 @@ gamut_status effects_check(struct gamut_run *run)
       live |= task->live && strcmp(task->owner, effect->label) == 0;
       if (imposes_stress(task, effect->label))
         TRY(check_imposed(run, effect));
+      TRY(check_heat(run, effect, task));
     }
     if (live && descriptor_provides(effect->effect->instance.descriptor, "opened_material"))
       TRY(check_opened(run, effect, warned));

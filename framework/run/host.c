@@ -381,6 +381,20 @@ static size_t host_chunk(const struct gamut_run *run)
   return run->chunk;
 }
 
+static const struct gamut_set *host_set(const struct gamut_run *run, size_t index)
+{
+  return run->set[index] ? &run->set[index]->open : NULL;
+}
+
+static gamut_status host_grid_pass(struct gamut_run *run, const struct gamut_grid_pass *pass)
+{
+  if (!run->solver->grid_pass)
+    return trace_fail(run->trace, GAMUT_SCENE,
+                      "a pass over the grid is asked of %s, which has none",
+                      run->scene->solver.descriptor->id);
+  return GUARDED(run->scene->solver.descriptor->id, run->solver->grid_pass(run->solver_self, pass));
+}
+
 const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .fail = host_fail,
                                     .fail_at = host_fail_at,
@@ -434,4 +448,6 @@ const struct gamut_host run_host = {.size = sizeof(struct gamut_host),
                                     .body_strength = host_body_strength,
                                     .fixed_steps = host_fixed_steps,
                                     .given_steps = host_given_steps,
+                                    .set = host_set,
+                                    .grid_pass = host_grid_pass,
                                     HOST_OF_SUMS};

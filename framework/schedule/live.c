@@ -75,17 +75,28 @@ static const struct place *known(const struct place *place)
   return place->file ? place : NULL;
 }
 
-static bool is_sought(const struct schedule *schedule, const struct field *field)
+/* By others than those that offer to work on it. */
+static bool is_sought(const struct schedule *schedule, const struct field *field, bool for_reading)
 {
   for (size_t w = 0; w < schedule->wants; w++)
-    if (schedule->want[w].field == field)
+    if (for_reading && schedule->want[w].field == field)
       return true;
   for (size_t i = 0; i < schedule->tasks; i++) {
     const struct task *task = schedule->task[i];
     for (size_t u = 0; task->live && u < task->uses; u++)
-      if (task->use[u].field == field && !task->use[u].offered && access_reads(task->use[u].access))
+      if (task->use[u].field == field && !task->use[u].offered &&
+          access_reads(task->use[u].access) == for_reading)
         return true;
   }
+  return false;
+}
+
+/* The first use of an offer stands before the others. */
+static bool writes_offered(const struct task *task, const struct field *offered)
+{
+  for (size_t u = 0; u < task->uses; u++)
+    if (task->use[u].offered == offered)
+      return access_writes(task->use[u].access);
   return false;
 }
 
@@ -93,8 +104,12 @@ static bool is_sought(const struct schedule *schedule, const struct field *field
 static void drop_offers(const struct schedule *schedule, struct task *task)
 {
   size_t kept = 0;
+  for (size_t u = 0; u < task->uses; u++) {
+    const struct field *offered = task->use[u].offered;
+    task->use[u].dropped = offered && !is_sought(schedule, offered, writes_offered(task, offered));
+  }
   for (size_t u = 0; u < task->uses; u++)
-    if (!task->use[u].offered || is_sought(schedule, task->use[u].offered))
+    if (!task->use[u].dropped)
       task->use[kept++] = task->use[u];
   task->uses = kept;
 }

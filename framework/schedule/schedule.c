@@ -189,11 +189,10 @@ static void settle_offer(struct task *task, const struct offer *offer, const str
   task->use = grown;
   for (size_t i = 0; i < offer->count; i++) {
     const enum gamut_access access = offer->use[i].access;
-    task->use[task->uses++] =
-        (struct use){.field = fields_find(fields, offer->use[i].field),
-                     .access = access,
-                     .optional = access == GAMUT_READ_IF,
-                     .offered = access_writes(offer->use[0].access) ? first : NULL};
+    task->use[task->uses++] = (struct use){.field = fields_find(fields, offer->use[i].field),
+                                           .access = access,
+                                           .optional = access == GAMUT_READ_IF,
+                                           .offered = first};
   }
 }
 

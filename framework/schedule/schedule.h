@@ -19,7 +19,8 @@ struct task {
     struct field *field;
     enum gamut_access access;
     bool optional; /* reads it only where somebody writes it */
-    const struct field *offered; /* there for readers of this field; null: the task's own */
+    const struct field *offered; /* there for others that use this field; null: its own */
+    bool dropped;
   } *use;
   size_t uses;
   struct clear {            /* what it is the first to share in a step */
@@ -58,9 +59,10 @@ void schedule_free(struct schedule *);
 gamut_status schedule_add(struct schedule *, const char *owner, const struct place *place,
                           const struct gamut_task *, struct fields *, size_t only_set,
                           const bool *on_set, struct trace *);
-/* What the task that was added last reads and writes as well if the field of the first use is there
- * when the plan is made; where that use writes it, if a live task reads it or somebody wants it.
- * Fields at points. Nothing is declared for it. Borrowed. */
+/* What the task that was added last reads and writes as well where the field of the first use is
+ * there when the plan is made, and where a live task reads it or somebody wants it if that use
+ * writes it, a live task writes it if that use reads it. Fields at points. Nothing is declared for
+ * it. Borrowed. */
 void schedule_offer(struct schedule *, const struct gamut_use *, size_t count);
 /* Says whose code the task that was added last is. Borrowed. */
 void schedule_plugin(struct schedule *, const char *plugin);

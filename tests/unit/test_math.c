@@ -224,6 +224,71 @@ static void lanes(void)
   report(different == 0, "the same bits in a vectorised loop and alone", different, 0);
 }
 
+/* R diag(d) R' of a rotation made of three angles, in long double. */
+static void compose(const long double d[3], const long double angle[3], double s[6])
+{
+  long double r[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  for (int k = 0; k < 3; k++) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    const long double c = cosl(angle[k]), w = sinl(angle[k]);
+    for (int row = 0; row < 3; row++) {
+      const long double a = r[row][i], b = r[row][j];
+      r[row][i] = c * a - w * b;
+      r[row][j] = w * a + c * b;
+    }
+  }
+  static const int row[6] = {0, 1, 2, 0, 1, 2}, column[6] = {0, 1, 2, 1, 2, 0};
+  for (int k = 0; k < 6; k++) {
+    long double sum = 0;
+    for (int i = 0; i < 3; i++)
+      sum += r[row[k]][i] * d[i] * r[column[k]][i];
+    s[k] = (double)sum;
+  }
+}
+
+static double principal_error(const long double d[3], const long double angle[3], double scale)
+{
+  double s[6], value[3];
+  const long double scaled[3] = {d[0] * scale, d[1] * scale, d[2] * scale};
+  compose(scaled, angle, s);
+  gamut_principal(s, value);
+  long double most = 0, off = 0;
+  for (int k = 0; k < 3; k++) {
+    most = fmaxl(most, fabsl(scaled[k]));
+    off = fmaxl(off, fabsl(value[k] - scaled[k]));
+  }
+  return (double)(off / most);
+}
+
+static void principal_values(void)
+{
+  static const long double sets[][3] = {{3, 2, 1},      {1, 1, 1},       {2, 1, 1},
+                                        {1, 1, -2},     {1, 0, 0},       {1, 1e-9L, -1e-9L},
+                                        {1, 1, 1e-12L}, {5, -1e-3L, -7}, {1, 1 - 1e-14L, 0.5L}};
+  static const double scale[] = {1, 1e200, 1e-200};
+  for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) {
+    double worst = 0;
+    for (int n = 0; n < 500; n++) {
+      const long double angle[3] = {0.37L * n, 1.13L * n + 0.2L, 2.71L * n};
+      worst = fmax(worst, principal_error(sets[i], angle, scale[n % 3]));
+    }
+    char text[120];
+    snprintf(text, sizeof text, "principal values %Lg %Lg %Lg, in roundings of the largest",
+             sets[i][0], sets[i][1], sets[i][2]);
+    report(worst <= 8 * DBL_EPSILON, text, worst / DBL_EPSILON, 8);
+  }
+  double value[3];
+  const double none[6] = {0}, wrong[6] = {1, 2, (double)NAN, 0, 0, 0};
+  const double plain[6] = {1e300, -3e300, 2e300, 0, 0, 0};
+  gamut_principal(none, value);
+  report(value[0] == 0 && value[1] == 0 && value[2] == 0, "of nothing: 0", value[0], 0);
+  gamut_principal(plain, value);
+  report(value[0] == 2e300 && value[1] == 1e300 && value[2] == -3e300, "of a diagonal: in order",
+         value[2] / 1e300, -3);
+  gamut_principal(wrong, value);
+  report(isnan(value[0]) && isnan(value[1]) && isnan(value[2]), "of no number: no number", 0, 0);
+}
+
 int main(void)
 {
   static const struct function exponential = {"exp", ours_exp, expl};
@@ -252,5 +317,6 @@ int main(void)
   limits();
   signs();
   lanes();
+  principal_values();
   return tap_done();
 }

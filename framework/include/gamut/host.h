@@ -103,6 +103,22 @@ enum gamut_extent {
   GAMUT_ONCE /* called once a step by one thread, with a null chunk; may use OpenMP itself */
 };
 
+/* One pass over the grid: a service of solvers that have one and provide `grid`. Each node takes
+ * the mean of the points around it, x_i = sum w (a N_i + q . grad N_i) / sum w N_i, and each point
+ * takes back the value sum x_i N_i and the gradient sum x_i grad N_i at its place. So heat
+ * conduction is two passes: one gives the gradient of the temperature (w the heat capacity, a the
+ * temperature), one takes the flux over capacity as q and gives the rate of the temperature.
+ *
+ * One struct a set, in the order of the scene's bodies; arrays have a number a slot, as stored
+ * fields do, and may be those of a state. A set without weight takes no part. */
+struct gamut_grid_pass {
+  const double *weight;  /* w, not negative; null: no points of this set */
+  const double *value;   /* a; null: 0 */
+  const double *flux[3]; /* q by component, those that the geometry lacks are not read; null: 0 */
+  double *result;        /* value at the points; null: not wanted */
+  double *gradient[3];   /* by component, 0 along axes that the geometry lacks; null: not wanted */
+};
+
 /* One piece of work of a step. The struct and what it points to is copied.
  * `run` returns GAMUT_OK or a status after gamut_fail; several threads may be in it at once. */
 struct gamut_task {
@@ -115,6 +131,9 @@ struct gamut_task {
   bool material; /* calls gamut update_material: the core adds what the material reads and writes */
   gamut_status (*run)(void *self, const struct gamut_chunk *chunk);
   void *self; /* borrowed */
+  const struct gamut_use *offers; /* not copied: further uses, all of them taken if a live task
+                                     writes the field of the first, which says READ_IF */
+  size_t offer_count;
 };
 
 /* Planes: a service of solvers that effects ask for. */
@@ -376,6 +395,12 @@ struct gamut_host {
   /* As fail_at, at a line (from 1) of that file. */
   gamut_status (*fail_in_file)(struct gamut_run *, const struct gamut_values *, const char *path,
                                size_t line, const char *expected, const char *format, ...);
+
+  /* The set of body `index`, for tasks GAMUT_ONCE; null until the solver has made it. */
+  const struct gamut_set *(*set)(const struct gamut_run *, size_t index);
+  /* A pass over the grid with the points where they are now; see struct gamut_grid_pass. In a task
+   * GAMUT_ONCE of the solver's phase `grid`. The same bits with any number of threads. */
+  gamut_status (*grid_pass)(struct gamut_run *, const struct gamut_grid_pass *pass);
 };
 
 /* Every run begins with its host; the rest is the core's. */

@@ -218,4 +218,39 @@ GAMUT_INLINE double gamut_pow(double x, double y)
   p = x != x || y != y ? x + y : p;
   return y == 0.0 || x == 1.0 ? 1.0 : p;
 }
+
+/* Principal values of a symmetric 3x3, components xx yy zz xy yz zx, the largest first: cyclic
+ * Jacobi rotations (Golub and Van Loan, Matrix Computations, 8.5). Within a few roundings of the
+ * largest, equal ones too, where closed forms by angles lose half the digits. No number in, no
+ * number out; no overflow unless a value itself is too large. */
+GAMUT_INLINE void gamut_principal(const double s[6], double value[3])
+{
+  double largest = 0.0;
+  for (int k = 0; k < 6; k++)
+    largest = fabs(s[k]) > largest ? fabs(s[k]) : largest;
+  const double scale = largest > 0.0 && largest < HUGE_VAL ? largest : 1.0;
+  double a[3] = {s[0] / scale, s[1] / scale, s[2] / scale}; /* the diagonal */
+  double b[3] = {s[4] / scale, s[5] / scale, s[3] / scale}; /* opposite to it: yz zx xy */
+  for (int sweep = 0; sweep < 6; sweep++)
+    for (int k = 0; k < 3; k++) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      /* the rotation of axes i and j that makes b[k] zero, by the smaller angle */
+      const double off = b[k], apart = 0.5 * (a[j] - a[i]);
+      const double reach = fabs(apart) + sqrt(apart * apart + off * off);
+      const double t = reach > 0.0 ? copysign(1.0, apart) * off / reach : 0.0;
+      const double c = 1.0 / sqrt(1.0 + t * t), turn = t * c;
+      const double bi = b[i], bj = b[j];
+      a[i] -= t * off;
+      a[j] += t * off;
+      b[k] = 0.0;
+      b[i] = c * bi + turn * bj;
+      b[j] = c * bj - turn * bi;
+    }
+  const double high = a[0] > a[1] ? a[0] : a[1], low = a[0] > a[1] ? a[1] : a[0];
+  const double all = a[0] + a[1] + a[2] + b[0] + b[1] + b[2];
+  const double wrong = all - all; /* NaN where an entry is no finite number, else 0 */
+  value[0] = scale * (high > a[2] ? high : a[2]) + wrong;
+  value[2] = scale * (low < a[2] ? low : a[2]) + wrong;
+  value[1] = scale * (high < a[2] ? high : low > a[2] ? low : a[2]) + wrong;
+}
 #endif

@@ -46,6 +46,8 @@
    */                                                                                              \
   gamut_status (*removal)(void *self, const char *name, const bool *on_body,                       \
                           const struct gamut_removal *, const struct gamut_removed **,             \
-                          double *mark);
+                          double *mark);                                                           \
+  /* optional: required by effects that take a pass over the grid; see struct gamut_grid_pass. */  \
+  gamut_status (*grid_pass)(void *self, const struct gamut_grid_pass *pass);
 
 #endif

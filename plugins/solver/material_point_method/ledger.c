@@ -79,6 +79,7 @@ gamut_status ledger_open(struct model *m)
                {"energy", "internal, half a step back", "J", GAMUT_STORED, &l->stagger},
                {"energy", "external forces", "J", GAMUT_SUPPLIED, &l->external_work},
                {"energy", "planes", "J", GAMUT_SUPPLIED, &l->plane_work},
+               {"energy", "heat", "J", GAMUT_SUPPLIED, &l->heat},
                {"energy", "impact and friction at planes", "J", GAMUT_LOST, &l->impact_loss},
                {"energy", "scatter loss", "J", GAMUT_LOST, &l->scatter_loss},
                {"energy", "gather loss", "J", GAMUT_LOST, &l->gather_loss},
@@ -170,7 +171,9 @@ void ledger_keep(struct model *m, double step)
   *l->impact_loss += m->planes.loss;
   *l->scatter_loss += was[SUM_KINETIC] - m->nodes.sum[TOTAL_BEFORE];
   *l->gather_loss += m->nodes.sum[TOTAL_AFTER] - (l->now[SUM_KINETIC] + gone[GONE_KINETIC]);
-  const double gain = l->now[SUM_INTERNAL] + gone[GONE_INTERNAL] - was[SUM_INTERNAL];
+  *l->heat += l->now[SUM_HEAT];
+  const double gain =
+      l->now[SUM_INTERNAL] + gone[GONE_INTERNAL] - was[SUM_INTERNAL] - l->now[SUM_HEAT];
   const double stagger = *l->stagger;
   *l->stagger = -0.5 * gain;
   *l->remainder += external - m->nodes.sum[TOTAL_WORK] - gain - (*l->stagger - stagger);

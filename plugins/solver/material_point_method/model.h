@@ -36,6 +36,7 @@ enum point_sum {
   SUM_TORQUE = SUM_FORCE + 3,
   SUM_POWER = SUM_TORQUE + 3, /* external force times velocity */
   SUM_MOBILITY,               /* half the external force squared over the mass */
+  SUM_HEAT,                   /* that points were given */
   POINT_SUMS
 };
 
@@ -63,7 +64,7 @@ struct ledger {
   double now[POINT_SUMS]; /* sums over all points at the end of the last step */
   double *mass, *kinetic, *internal, *stagger;
   double *forward[3], *backward[3], *round[3], *back_round[3];
-  double *external_work, *plane_work, *impact_loss, *scatter_loss, *gather_loss, *remainder;
+  double *external_work, *plane_work, *impact_loss, *scatter_loss, *gather_loss, *remainder, *heat;
   double *external_impulse[3], *plane_forward[3], *plane_backward[3];
   double *external_torque[3], *plane_round[3], *plane_back_round[3], *angular_momentum_loss[3];
 };
@@ -71,7 +72,7 @@ struct ledger {
 struct fields {
   struct gamut_field position, velocity, mass, volume_ratio, stress, energy, velocity_gradient,
       external_force, sound_speed, omega_squared, cell_size, reference_volume, domain_length,
-      affine_velocity, viscous_pressure, removal;
+      affine_velocity, viscous_pressure, removal, transfer_heat;
 };
 
 /* The most that the points of a block have. */
@@ -114,8 +115,9 @@ struct model {
   struct work **work; /* one a thread */
   int threads;
 
-  double *filter_line; /* XPIC: as grid.line, for what is filtered */
+  double *filter_line; /* as grid.line, for what XPIC filters and for passes of others */
   size_t filter_capacity;
+  const struct gamut_grid_pass *pass; /* the one under way */
 
   double *block_sum; /* POINT_SUMS a block of points */
   struct block_most *block_most;
@@ -176,6 +178,12 @@ gamut_status step_project(struct model *, bool carry);
 /* step/filter.c: the part of the points' new velocity that comes from their old one, in the place
  * of the nodes' change of velocity, which is added to it. */
 gamut_status step_filter(struct model *);
+/* Lines beside those of the blocks, and the one in the place of the other; the same to undo it. */
+gamut_status step_filter_room(struct model *);
+void step_swap_lines(struct model *);
+
+/* step/pass.c: gamut_host.grid_pass */
+gamut_status step_pass(struct model *, const struct gamut_grid_pass *);
 
 /* points/sums.c: energy may be null, forces not. */
 void sums_motion(struct work *, const struct point_view *, unsigned dimension,

@@ -81,7 +81,8 @@ static gamut_status find_fields(struct model *m)
                 {"domain_length", &f->domain_length},
                 {"affine_velocity", &f->affine_velocity},
                 {"viscous_pressure", &f->viscous_pressure},
-                {"removal", &f->removal}};
+                {"removal", &f->removal},
+                {"transfer_heat", &f->transfer_heat}};
   gamut_status status = GAMUT_OK;
   for (size_t i = 0; i < sizeof wanted / sizeof *wanted && status == GAMUT_OK; i++)
     status = gamut_field_named(m->run, wanted[i].name, wanted[i].field);
@@ -318,6 +319,11 @@ static gamut_status plane(void *self, const struct gamut_plane *given,
   return planes_add(self, given, reaction);
 }
 
+static gamut_status grid_pass(void *self, const struct gamut_grid_pass *pass)
+{
+  return step_pass(self, pass);
+}
+
 static gamut_status measure(void *self, const char *name, const struct gamut_body *body,
                             const struct gamut_values *arguments, double *value)
 {
@@ -335,4 +341,5 @@ static gamut_status describe(void *self, double *step, char *text, size_t size)
 
 GAMUT_SOLVER(material_point_method, .create = create, .destroy = destroy, .start = start,
              .next = next, .after = after, .plane = plane, .measure = measure, .describe = describe,
-             .save = model_save, .restore = model_restore, .removal = removal_add)
+             .save = model_save, .restore = model_restore, .removal = removal_add,
+             .grid_pass = grid_pass)

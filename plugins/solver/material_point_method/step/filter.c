@@ -8,7 +8,7 @@
 #include "step/step.h"
 
 /* In the lines of the filter: u in the place of the velocity, v* in that of its change. */
-static gamut_status room_for_lines(struct model *m)
+gamut_status step_filter_room(struct model *m)
 {
   if (m->filter_capacity >= m->grid.capacity)
     return GAMUT_OK;
@@ -25,7 +25,7 @@ static gamut_status room_for_lines(struct model *m)
 
 /* A block that the filter's boxes are the first to reach has no line of its own: they reach into it
  * with a corner that no point touches. It keeps the line, clear. */
-static void swap_lines(struct model *m)
+void step_swap_lines(struct model *m)
 {
   for (size_t b = 0; b < m->grid.blocks; b++) {
     struct node_block *block = &m->grid.block[b];
@@ -146,10 +146,10 @@ static void finish(struct model *m)
 
 gamut_status step_filter(struct model *m)
 {
-  if (room_for_lines(m) != GAMUT_OK)
+  if (step_filter_room(m) != GAMUT_OK)
     return GAMUT_INTERNAL;
   begin(m);
-  swap_lines(m);
+  step_swap_lines(m);
   gamut_status status = GAMUT_OK;
   double fraction = m->filter,
          left = 1.0; /* of all fractions, those of this pass and of later ones */
@@ -165,7 +165,7 @@ gamut_status step_filter(struct model *m)
     settle(m, left);
     add_fraction(m, fraction);
   }
-  swap_lines(m);
+  step_swap_lines(m);
   if (status == GAMUT_OK)
     finish(m);
   return status;

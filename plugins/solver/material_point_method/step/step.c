@@ -3,11 +3,16 @@
  * strained and scattered while it is in cache. */
 #include "step/step.h"
 
+/* Heat that effects give is taken up where somebody gives any. */
+static const struct gamut_use heat[] = {
+    {"transfer_heat", GAMUT_READ_IF}, {"energy", GAMUT_READ}, {"energy", GAMUT_WRITE}};
+
 static gamut_status add(struct model *m, const char *name, const char *phase,
                         enum gamut_extent extent,
                         gamut_status (*run)(void *, const struct gamut_chunk *),
                         const struct gamut_use *uses, size_t count)
 {
+  const bool takes_heat = run == scatter_points;
   const struct gamut_task task = {.name = name,
                                   .phase = phase,
                                   .extent = extent,
@@ -15,7 +20,9 @@ static gamut_status add(struct model *m, const char *name, const char *phase,
                                   .use_count = count,
                                   .essential = true,
                                   .run = run,
-                                  .self = m};
+                                  .self = m,
+                                  .offers = heat,
+                                  .offer_count = takes_heat ? sizeof heat / sizeof *heat : 0};
   return gamut_add_task(m->run, &task);
 }
 

@@ -218,6 +218,23 @@ gamut_status scatter_view(struct model *m, struct work *w, const struct gamut_se
   return GAMUT_OK;
 }
 
+/* What effects gave the points in this step goes into their energy. */
+static void take_heat(struct model *m, const struct gamut_chunk *chunk)
+{
+  const double *heat = gamut_end(chunk, m->field.transfer_heat, 0);
+  if (heat == NULL)
+    return;
+  const double *mass = gamut_end(chunk, m->field.mass, 0);
+  double *energy = gamut_end(chunk, m->field.energy, 0);
+  double *sum = m->work[chunk->thread]->point_sum + SUM_HEAT * GAMUT_LANES;
+  const double over = 1.0 / m->body[chunk->set->index].density;
+  for (size_t i = 0; i < chunk->count; i += GAMUT_LANES)
+    for (size_t l = 0; l < GAMUT_LANES; l++) {
+      energy[i + l] += heat[i + l];
+      sum[l] += mass[i + l] * over * heat[i + l];
+    }
+}
+
 gamut_status scatter_points(void *self, const struct gamut_chunk *chunk)
 {
   struct model *m = self;
@@ -236,6 +253,7 @@ gamut_status scatter_points(void *self, const struct gamut_chunk *chunk)
   const gamut_status taken = removal_take(m, chunk);
   if (taken != GAMUT_OK)
     return taken;
+  take_heat(m, chunk);
   const double *omega = gamut_end(chunk, m->field.omega_squared, 0);
   double most = w->omega_squared;
   int unbounded = 0;
