@@ -21,6 +21,26 @@ _Noreturn void memory_ended(void)
   abort();
 }
 
+static _Thread_local bool must_last, overdrawn;
+
+void memory_must_last(void)
+{
+  must_last = true;
+}
+
+bool memory_overdraw(void)
+{
+  overdrawn = overdrawn || must_last;
+  return must_last;
+}
+
+void memory_may_end(void)
+{
+  must_last = false;
+  if (overdrawn)
+    memory_ended();
+}
+
 char *memory_copy(const char *text)
 {
   char *copy = text ? strdup(text) : NULL;

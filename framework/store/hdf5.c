@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/memory.h"
 #include "store/file.h"
 
 static hid_t access_list(void)
@@ -109,11 +110,22 @@ gamut_status hdf5_flush(hid_t file, const char *path, struct trace *trace)
 {
   int descriptor;
   hsize_t end;
+  gamut_status status = GAMUT_OK;
+  memory_must_last();
   if (H5Fflush(file, H5F_SCOPE_GLOBAL) < 0 || !file_end(file, &descriptor, &end))
-    return hdf5_fault(path, "write", trace);
-  if (ftruncate(descriptor, (off_t)end) != 0)
-    return trace_fail(trace, GAMUT_OUTPUT, "cannot write '%s': %s", path, strerror(errno));
-  return GAMUT_OK;
+    status = hdf5_fault(path, "write", trace);
+  else if (ftruncate(descriptor, (off_t)end) != 0)
+    status = trace_fail(trace, GAMUT_OUTPUT, "cannot write '%s': %s", path, strerror(errno));
+  memory_may_end();
+  return status;
+}
+
+bool hdf5_close(hid_t file)
+{
+  memory_must_last();
+  const bool closed = H5Fclose(file) >= 0;
+  memory_may_end();
+  return closed;
 }
 
 gamut_status hdf5_sync(hid_t file, const char *path, struct trace *trace)

@@ -23,6 +23,9 @@ gamut_status hdf5_create(const char *path, struct trace *, hid_t *file);
  * crashes. */
 gamut_status hdf5_reserve(hid_t file, size_t bytes, const char *path, struct trace *);
 gamut_status hdf5_flush(hid_t file, const char *path, struct trace *);
+/* Closes a file that was written. Both: where memory ends on the way, the file is made whole first.
+ */
+bool hdf5_close(hid_t file);
 /* Waits until everything is on the disk. */
 gamut_status hdf5_sync(hid_t file, const char *path, struct trace *);
 /* Whether the path still leads to the open file. */

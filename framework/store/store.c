@@ -176,7 +176,7 @@ void store_rest(struct store *store)
 {
   EXCLUSIVE;
   if (store->file >= 0 && !store->broken)
-    H5Fclose(store->file);
+    hdf5_close(store->file);
   store->file = -1;
 }
 
@@ -261,7 +261,7 @@ gamut_status store_finish(struct store *store, struct trace *trace)
   gamut_status status;
   TRY(results_there(store, trace));
   TRY(hdf5_sync(store->file, store->path, trace));
-  if (H5Fclose(store->file) < 0)
+  if (!hdf5_close(store->file))
     status = store_broken(store, trace);
   store->file = -1;
   TRY(status);

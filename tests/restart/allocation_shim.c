@@ -1,10 +1,14 @@
 /* Preloaded by out_of_memory.py: makes the allocation number GAMUT_FAIL_AT fail, counted from the
- * start of the program, or with GAMUT_FAIL_ON all from there on. Writes their count to the file
- * GAMUT_FAIL_COUNT at the end. */
+ * start of the program, or with GAMUT_FAIL_ON all from there on; with GAMUT_FAIL_IN_FLUSH those
+ * inside of H5Fflush() alone are counted. Writes their count to the file GAMUT_FAIL_COUNT at the
+ * end. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -17,7 +21,8 @@ extern void *__libc_memalign(size_t alignment, size_t size);
 static atomic_bool armed;
 static atomic_long calls;
 static long fail_at;
-static bool fail_on;
+static bool fail_on, flushes_only;
+static _Thread_local bool flushing;
 static int told = -1;
 
 __attribute__((constructor)) static void begin(void)
@@ -25,6 +30,7 @@ __attribute__((constructor)) static void begin(void)
   const char *at = getenv("GAMUT_FAIL_AT"), *count = getenv("GAMUT_FAIL_COUNT");
   fail_at = at ? atol(at) : 0;
   fail_on = getenv("GAMUT_FAIL_ON") != NULL;
+  flushes_only = getenv("GAMUT_FAIL_IN_FLUSH") != NULL;
   if (count)
     told = open(count, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   unsetenv("LD_PRELOAD"); /* programs that are started have the memory they want */
@@ -48,7 +54,7 @@ __attribute__((noinline)) void allocation_shim_failed(void)
 
 static bool fails(void)
 {
-  if (!atomic_load(&armed))
+  if (!atomic_load(&armed) || (flushes_only && !flushing))
     return false;
   long call = atomic_fetch_add(&calls, 1) + 1;
   bool failed = fail_at > 0 && (call == fail_at || (fail_on && call > fail_at));
@@ -83,4 +89,13 @@ int posix_memalign(void **memory, size_t alignment, size_t size)
   if (taken)
     *memory = taken;
   return taken ? 0 : ENOMEM;
+}
+
+int H5Fflush(int64_t file, int scope)
+{
+  int (*next)(int64_t, int) = (int (*)(int64_t, int))dlsym(RTLD_NEXT, "H5Fflush");
+  flushing = true;
+  int result = next(file, scope);
+  flushing = false;
+  return result;
 }
