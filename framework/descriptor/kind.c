@@ -1,6 +1,10 @@
 #include <assert.h>
 #include <string.h>
 
+#include <gamut/estimator.h>
+#include <gamut/random_field.h>
+#include <gamut/solver.h>
+
 #include "descriptor/descriptor_private.h"
 
 const char *kind_name(enum gamut_kind kind)
@@ -26,15 +30,16 @@ bool kind_from_name(const char *name, enum gamut_kind *kind)
 
 const char *kind_operation(enum gamut_kind kind, size_t index)
 {
-  static const char *const operation[GAMUT_KINDS][12] = {
-      [GAMUT_KIND_EOS] = {"pressure", "derivatives"},
-      [GAMUT_KIND_STRENGTH] = {"flow_stress", "inverse", "derivatives"},
-      [GAMUT_KIND_ELASTICITY] = {"stress", "start"},
-      [GAMUT_KIND_EFFECT] = {"create", "destroy", "decline", "measure", "save", "restore"},
-      [GAMUT_KIND_RANDOM_FIELD] = {"create", "destroy", "sample", "below"},
-      [GAMUT_KIND_ESTIMATOR] = {"create", "destroy", "ask", "tell", "report", "save", "restore"},
-      [GAMUT_KIND_SOLVER] = {"create", "destroy", "start", "next", "after", "plane", "measure",
-                             "describe", "save", "restore", "removal", "grid_pass"},
+  static const char *const operation[GAMUT_KINDS][16] = {
+#define OPERATION_NAME(type, name, arguments) #name,
+      [GAMUT_KIND_EOS] = {GAMUT_EOS_OPERATIONS(OPERATION_NAME, void)},
+      [GAMUT_KIND_STRENGTH] = {GAMUT_STRENGTH_OPERATIONS(OPERATION_NAME, void)},
+      [GAMUT_KIND_ELASTICITY] = {GAMUT_ELASTICITY_OPERATIONS(OPERATION_NAME, void)},
+      [GAMUT_KIND_EFFECT] = {GAMUT_EFFECT_OPERATIONS(OPERATION_NAME, void)},
+      [GAMUT_KIND_RANDOM_FIELD] = {GAMUT_RANDOM_FIELD_OPERATIONS(OPERATION_NAME, void)},
+      [GAMUT_KIND_ESTIMATOR] = {GAMUT_ESTIMATOR_OPERATIONS(OPERATION_NAME, void)},
+      [GAMUT_KIND_SOLVER] = {GAMUT_SOLVER_OPERATIONS(OPERATION_NAME, void)},
+#undef OPERATION_NAME
   };
   return index < ARRAY_SIZE(operation[kind]) ? operation[kind][index] : NULL;
 }

@@ -113,21 +113,23 @@ struct gamut_report {
                         const struct gamut_table_column *, size_t columns, size_t rows);
 };
 
-#define GAMUT_ESTIMATOR_OPS(B)                                                                     \
+#define GAMUT_ESTIMATOR_OPERATIONS(OP, B)                                                          \
   /* required. What the study has. On failure returns a status after gamut_fail; *self then is not \
    * destroyed. */                                                                                 \
-  gamut_status (*create)(struct gamut_run *, const struct gamut_values *,                          \
-                         const struct gamut_study_shape *, void **self);                           \
+  OP(gamut_status, create,                                                                         \
+     (struct gamut_run *, const struct gamut_values *, const struct gamut_study_shape *,           \
+      void **self))                                                                                \
   /* required. Accepts null. */                                                                    \
-  void (*destroy)(void *self);                                                                     \
-  gamut_status (*ask)(void *self, struct gamut_batch *);                                           \
-  gamut_status (*tell)(void *self, const struct gamut_batch *);                                    \
+  OP(void, destroy, (void *self))                                                                  \
+  OP(gamut_status, ask, (void *self, struct gamut_batch *))                                        \
+  OP(gamut_status, tell, (void *self, const struct gamut_batch *))                                 \
   /* Required, unless the descriptor says `yields: table`: then runs are no sample and there are   \
    * no moments. */                                                                                \
-  gamut_status (*report)(const void *self, struct gamut_report *);                                 \
+  OP(gamut_status, report, (const void *self, struct gamut_report *))                              \
   /* required: the whole state as bytes; called with null bytes to learn the size. restore makes   \
    * a fresh estimator go on exactly where the saved one stood. */                                 \
-  size_t (*save)(const void *self, void *bytes);                                                   \
-  gamut_status (*restore)(void *self, const void *bytes, size_t size);
+  OP(size_t, save, (const void *self, void *bytes))                                                \
+  OP(gamut_status, restore, (void *self, const void *bytes, size_t size))
+#define GAMUT_ESTIMATOR_OPS(B) GAMUT_ESTIMATOR_OPERATIONS(GAMUT_OPERATION, B)
 
 #endif

@@ -103,24 +103,31 @@ struct gamut_plugin {
  *   release      required. Frees it: once for each prepare that went well, when no kernel will be
  *                called again. Of the run nothing may be asked then.
  */
-#define GAMUT_EOS_OPS(B)                                                                           \
-  void (*pressure)(const B *);                                                                     \
-  void (*derivatives)(const B *);
-#define GAMUT_STRENGTH_OPS(B)                                                                      \
-  void (*flow_stress)(const B *);                                                                  \
-  void (*inverse)(const B *);                                                                      \
-  void (*derivatives)(const B *);
-#define GAMUT_ELASTICITY_OPS(B)                                                                    \
-  void (*stress)(const B *);                                                                       \
-  void (*start)(const B *);
-#define GAMUT_EFFECT_OPS(B)                                                                        \
-  gamut_status (*create)(struct gamut_run *, const struct gamut_values *, void **self);            \
-  void (*destroy)(void *self);                                                                     \
-  bool (*decline)(void *self, const struct gamut_values *, char *why, size_t size);                \
-  gamut_status (*measure)(void *self, const char *name, const struct gamut_body *body,             \
-                          const struct gamut_values *arguments, double *value);                    \
-  size_t (*save)(const void *self, void *bytes);                                                   \
-  gamut_status (*restore)(void *self, const void *bytes, size_t size);
+/* Each list once: members of the struct of operations, and their names. */
+#define GAMUT_OPERATION(type, name, arguments) type(*name) arguments;
+#define GAMUT_EOS_OPERATIONS(OP, B)                                                                \
+  OP(void, pressure, (const B *))                                                                  \
+  OP(void, derivatives, (const B *))
+#define GAMUT_EOS_OPS(B) GAMUT_EOS_OPERATIONS(GAMUT_OPERATION, B)
+#define GAMUT_STRENGTH_OPERATIONS(OP, B)                                                           \
+  OP(void, flow_stress, (const B *))                                                               \
+  OP(void, inverse, (const B *))                                                                   \
+  OP(void, derivatives, (const B *))
+#define GAMUT_STRENGTH_OPS(B) GAMUT_STRENGTH_OPERATIONS(GAMUT_OPERATION, B)
+#define GAMUT_ELASTICITY_OPERATIONS(OP, B)                                                         \
+  OP(void, stress, (const B *))                                                                    \
+  OP(void, start, (const B *))
+#define GAMUT_ELASTICITY_OPS(B) GAMUT_ELASTICITY_OPERATIONS(GAMUT_OPERATION, B)
+#define GAMUT_EFFECT_OPERATIONS(OP, B)                                                             \
+  OP(gamut_status, create, (struct gamut_run *, const struct gamut_values *, void **self))         \
+  OP(void, destroy, (void *self))                                                                  \
+  OP(bool, decline, (void *self, const struct gamut_values *, char *why, size_t size))             \
+  OP(gamut_status, measure,                                                                        \
+     (void *self, const char *name, const struct gamut_body *body,                                 \
+      const struct gamut_values *arguments, double *value))                                        \
+  OP(size_t, save, (const void *self, void *bytes))                                                \
+  OP(gamut_status, restore, (void *self, const void *bytes, size_t size))
+#define GAMUT_EFFECT_OPS(B) GAMUT_EFFECT_OPERATIONS(GAMUT_OPERATION, B)
 
 /* Exports NAME_LTX_gamut_plugin. A build may put further shared objects beside NAME.so, made from
  * the same source for a richer instruction set (NAME.v3.so, NAME.v4.so); each exports the same
