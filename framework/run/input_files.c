@@ -39,11 +39,18 @@ gamut_status restart_same_files(const struct scene *scene, const char *was, cons
                                 struct trace *trace)
 {
   gamut_status status = GAMUT_OK;
-  char digest[17], key[1024];
-  for (; sscanf(was, "%16s %1023[^\n]", digest, key) == 2;
-       was += strcspn(was, "\n"), was += *was == '\n')
-    TRY(check(scene, key, digest, folder, trace));
+  char *lines = memory_copy(was), *rest = NULL;
+  for (char *line = strtok_r(lines, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
+    char *key = strchr(line, ' ');
+    if (!key) {
+      status = trace_fail(trace, GAMUT_OUTPUT, "the list of files in the checkpoint is damaged");
+      goto done;
+    }
+    *key++ = '\0';
+    TRY(check(scene, key, line, folder, trace));
+  }
 done:
+  free(lines);
   return status;
 }
 
